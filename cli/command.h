@@ -1,0 +1,34 @@
+// Subcommands: each file defines one, and main() collects them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace pullfocus::cli {
+
+// Exit codes of the program.
+inline constexpr int kDone = 0, kFrameFailed = 1, kWrongUsage = 2;
+
+// Adds a subcommand's options to `app`; the returned function runs it after parsing and gives the exit code.
+// It may throw pullfocus::Error.
+using Run = std::function<int()>;
+Run add_filter_command(CLI::App& app);
+Run add_inspect_command(CLI::App& app);
+Run add_render_command(CLI::App& app);
+
+// Gives `threads` threads (0: one a processor) to everything that works in parallel, until the program ends.
+void use_threads(int threads);
+
+// True once the user or the system asked the program to end (SIGINT, SIGTERM): finish the frame at hand, then
+// stop.
+bool interrupted() noexcept;
+
+// One line on stderr: "pullfocus: warning: ...".
+void warn(const std::string& message);
+
+}  // namespace pullfocus::cli

@@ -1,0 +1,58 @@
+// The input of a command: a sequence on disk, opened, with its camera and state window.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera_options.h"
+#include "exr/reader.h"
+#include "exr/sequence.h"
+#include "exr/state_window.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pullfocus::cli {
+
+struct InputArguments {
+  std::string input;
+  std::string frames;
+  std::optional<std::string> layer, view, depth_channel;
+  std::string overscan = "auto";
+};
+void add_input_options(CLI::App& app, InputArguments& arguments);
+
+// One frame as read.
+struct ShotFrame {
+  exr::FileInfo file;
+  exr::Selection selection;
+  Frame frame;
+  exr::ExtraChannels extra;
+  std::size_t outside = 0;  // the file's pixels outside the state window
+};
+
+class Shot {
+ public:
+  // Finds the files and reads their headers; resolves --focus-at. Throws Error.
+  Shot(const InputArguments& input, const CameraArguments& camera, exr::BadFrames bad_frames);
+
+  const exr::Sequence& sequence() const noexcept { return sequence_; }
+  const Window& state_window() const noexcept { return state_window_; }
+  const Camera& camera() const noexcept { return camera_; }
+  std::vector<int> frame_numbers() const;
+
+  // Reads frame number `i` of sequence().frames, reusing memory of `out`. Errors name frame and file.
+  void read(const exr::SequenceFrame& from, ShotFrame& out, bool with_extra) const;
+
+ private:
+  exr::ChannelOptions channels_;
+  exr::Sequence sequence_;
+  Window state_window_;
+  Camera camera_;
+
+  double depth_at_focus_pixel(const FocusPixel& pixel) const;
+};
+
+}  // namespace pullfocus::cli

@@ -1,0 +1,50 @@
+// What the filters share: tables, threads, and the way from a frame of any type to one of the state's type.
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <memory>
+
+#include "filter/filter.h"
+#include "importance/change.h"
+#include "scatter/scatter.h"
+
+namespace pullfocus {
+
+class Stopwatch {
+ public:
+  double ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct FilterCore {
+  // `table` must have been built from options.kernel, or be null. Throws Error(usage).
+  FilterCore(const Window& state_window, const FilterOptions& filter_options,
+             std::shared_ptr<const KernelTable> table);
+
+  // Throws Error(usage) if the frame has another window.
+  void check(const Frame& frame) const;
+
+  // State window the content of a frame can reach.
+  Window reached(const FrameFindings& findings) const noexcept;
+
+  static void report(const FrameFindings& findings, Stats& stats) noexcept;
+
+  Window window;
+  FilterOptions options;
+  int threads;
+  std::shared_ptr<const KernelTable> kernels;
+  Sanitiser sanitiser;
+  tbb::task_arena arena;
+  Scatter scatter;
+};
+
+// Same values, stored as floats.
+void widen(const ColourImage& half, ColourImage& out);
+
+}  // namespace pullfocus

@@ -1,0 +1,75 @@
+#include "filter/explain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "scatter/band.h"
+
+namespace pullfocus {
+
+namespace {
+
+float diameter(const Frame& frame, const CocFunction& coc, int x, int y) {
+  const float depth = frame.depth.at(x, y);
+  return is_background(coc.kind, depth) ? coc.background() : coc(depth);
+}
+
+// Weight that `kernel` at offset (dx, dy) from the target gives it, mirror images included. Sizes of the
+// window.
+std::int64_t weight_at(const Kernel& kernel, int sx, int sy, int tx, int ty, int width, int height) {
+  std::int64_t weight = 0;
+  for (int y = sy - kernel.radius_y; y <= sy + kernel.radius_y; ++y) {
+    if (mirror(y, height) != ty) continue;
+    for (int x = sx - kernel.radius_x; x <= sx + kernel.radius_x; ++x) {
+      if (mirror(x, width) == tx) weight += kernel.weight(x - sx, y - sy);
+    }
+  }
+  return weight;
+}
+
+}  // namespace
+
+Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, int x, int y,
+                    std::size_t most) {
+  const Window& w = frame.window();
+  Explanation story;
+  story.depth = frame.depth.at(x, y);
+  story.background = is_background(coc.kind, story.depth);
+  story.coc_px = diameter(frame, coc, x, y);
+  story.index = kernels.coc().index(story.coc_px);
+  story.diameter_px = kernels.coc().diameter(story.index);
+
+  double total = 0;
+  for (int sy = w.y0; sy < w.y1; ++sy) {
+    for (int sx = w.x0; sx < w.x1; ++sx) {
+      const float c = diameter(frame, coc, sx, sy);
+      const Kernel& kernel = kernels.kernel(kernels.coc().index(c));
+      if (std::abs(sx - x) > kernel.radius_x || std::abs(sy - y) > kernel.radius_y) continue;
+      const std::int64_t weight =
+          weight_at(kernel, sx - w.x0, sy - w.y0, x - w.x0, y - w.y0, w.width(), w.height());
+      if (weight == 0) continue;
+      const double share = static_cast<double>(weight) / static_cast<double>(kWeightUnit);
+      total += share;
+      const float depth = frame.depth.at(sx, sy);
+      story.largest.push_back({sx, sy, share, c, depth, is_background(coc.kind, depth)});
+    }
+  }
+  story.contributors = static_cast<std::int64_t>(story.largest.size());
+  story.total_weight = total;
+  for (Contributor& c : story.largest) {
+    c.share /= total;
+    if (c.x == x && c.y == y) story.own_share = c.share;
+  }
+  const std::size_t kept = std::min(most, story.largest.size());
+  const auto order = [&](const Contributor& a, const Contributor& b) {
+    return std::tuple(-a.share, std::abs(a.y - y) + std::abs(a.x - x), a.y, a.x) <
+           std::tuple(-b.share, std::abs(b.y - y) + std::abs(b.x - x), b.y, b.x);
+  };
+  std::partial_sort(story.largest.begin(), story.largest.begin() + static_cast<std::ptrdiff_t>(kept),
+                    story.largest.end(), order);
+  story.largest.resize(kept);
+  return story;
+}
+
+}  // namespace pullfocus

@@ -1,0 +1,48 @@
+// The interface of all filters: frames of one shot in, pictures with depth of field out.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "camera/thin_lens.h"
+#include "filter/options.h"
+#include "filter/stats.h"
+#include "image/frame.h"
+
+namespace pullfocus {
+
+// Asked at every slice border, from the thread that called filter(); true ends the call early.
+using StopRequest = std::function<bool()>;
+
+// One shot at a time; not to be called from two threads at once. Colour is premultiplied, scene-linear RGBA.
+class Filter {
+ public:
+  virtual ~Filter() = default;
+
+  // Filters one frame. `frame` must have the state window given at construction; its sample type may differ
+  // from frame to frame. `coc` holds this frame's lens. Without `stop`, or if it never returns true, the
+  // budget is served in full. The references returned by this and by result() hold until the next call.
+  // Throws Error(usage) for a frame of another window.
+  virtual const Stats& filter(const Frame& frame, const CocFunction& coc, const StopRequest& stop = {}) = 0;
+
+  // The picture after the last call, over the state window; zero outside result_window().
+  virtual const ColourImage& result() const noexcept = 0;
+
+  // Where the picture can differ from zero: content grown by its largest kernel, cut to the state window.
+  // Depends on the last frame alone if nothing was left over. Never empty: one pixel in the corner if there
+  // is no content.
+  virtual const Window& result_window() const noexcept = 0;
+
+  // Forgets all history: the next frame is a first frame.
+  virtual void reset() = 0;
+};
+
+// Every frame anew, from nothing.
+std::unique_ptr<Filter> make_linear_filter(const Window& state_window, const FilterOptions& options,
+                                           std::shared_ptr<const KernelTable> kernels = nullptr);
+
+// Only what changed, with the same result bit for bit when nothing is left over (see incremental_filter.h).
+std::unique_ptr<Filter> make_incremental_filter(const Window& state_window, const FilterOptions& options,
+                                                std::shared_ptr<const KernelTable> kernels = nullptr);
+
+}  // namespace pullfocus

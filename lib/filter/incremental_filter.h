@@ -1,0 +1,65 @@
+// The incremental filter (Fearing 1996): remembers what every pixel contributed and recomputes what changed.
+//
+// Stage          reads                          writes
+// find_changes   frame, committed state         masks of changed pixels, their new indices
+// select         masks, importance              the set the budget affords, in slices if the call can be
+// stopped scatter        committed state, frame         destination bands: old contributions out, new ones in
+// integrate      bands                          accumulators, dirty spans
+// commit         frame                          committed state
+// resolve        accumulators, dirty spans      result
+//
+// The invariant, at every slice border: the accumulators equal what scattering the committed state from
+// nothing would give, bit for bit. So with nothing left over the result is the linear filter's, whatever the
+// history.
+#pragma once
+
+#include <span>
+
+#include "filter/core.h"
+#include "importance/select.h"
+#include "resolve/spans.h"
+
+namespace pullfocus {
+
+class IncrementalFilter final : public Filter {
+ public:
+  IncrementalFilter(const Window& state_window, const FilterOptions& options,
+                    std::shared_ptr<const KernelTable> kernels = nullptr);
+
+  const Stats& filter(const Frame& frame, const CocFunction& coc, const StopRequest& stop = {}) override;
+  const ColourImage& result() const noexcept override { return result_; }
+  const Window& result_window() const noexcept override { return result_window_; }
+  void reset() override;
+
+  // For tests and tools: the committed state, and its sums, lanes() values a pixel, row by row.
+  const SourceState& committed() const noexcept { return state_; }
+  std::span<const Accumulator> accumulators() const noexcept { return sums_; }
+  int lanes() const noexcept { return lanes_; }
+
+ private:
+  const Frame& in_state_type(const Frame& frame);
+  void prepare_result(SampleType type);
+  void widen_lanes();
+  std::vector<TileWork> select(const Changes& changes, const Pending& pending) const;
+  bool rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept;
+  void update(const std::vector<TileWork>& selected, const Pending& pending);
+  void rebuild(const std::vector<TileWork>& selected, const Pending& pending);
+  void resolve_dirty();
+  void count_uncommitted();
+  void show_uncommitted(const Frame& frame);
+
+  FilterCore core_;
+  SourceState state_;
+  std::vector<std::int16_t> pending_;
+  std::vector<Accumulator> sums_;
+  int lanes_ = kOpaqueLanes;
+  std::int64_t uncommitted_ = 0;  // pixels never committed
+  std::int64_t edges_ = 0;        // of the committed state
+  DirtySpans dirty_;
+  Frame widened_;
+  ColourImage result_;
+  Window result_window_;
+  Stats stats_;
+};
+
+}  // namespace pullfocus

@@ -1,0 +1,51 @@
+#include "filter/linear_filter.h"
+
+#include "importance/select.h"
+#include "resolve/resolve.h"
+
+namespace pullfocus {
+
+LinearFilter::LinearFilter(const Window& state_window, const FilterOptions& options,
+                           std::shared_ptr<const KernelTable> kernels)
+    : core_(state_window, options, std::move(kernels)) {}
+
+const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, const StopRequest&) {
+  core_.check(frame);
+  const Stopwatch whole;
+  stats_ = {};
+  const SampleType type = frame.colour.type(), result_type = core_.options.output_type.value_or(type);
+  if (state_.colour.window() != core_.window || state_.colour.type() != type)
+    state_.reset(core_.window, type);
+  if (result_.window() != core_.window || result_.type() != result_type)
+    result_.reset(core_.window, result_type);
+
+  core_.arena.execute([&] {
+    const Stopwatch detect;
+    bool opaque = true;
+    const FrameFindings findings =
+        commit_all(frame, coc, core_.kernels->coc(), core_.sanitiser, state_, tiles_, opaque);
+    FilterCore::report(findings, stats_);
+    result_window_ = core_.reached(findings);
+    stats_.edges = committed_edges(state_, *core_.kernels);
+    stats_.detect_ms = detect.ms();
+
+    const Stopwatch scatter;
+    const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
+    core_.scatter.run(tiles_, {&state_}, lanes, core_.threads,
+                      [&](int y, int x0, int x1, const Accumulator* values) {
+                        resolve_span(values, lanes, x0, x1, y, state_.colour, result_);
+                      });
+    stats_.scatter_ms = scatter.ms();
+  });
+  stats_.mode = ScatterMode::rebuild;
+  stats_.changed = stats_.updated = stats_.resolved = static_cast<std::int64_t>(core_.window.pixels());
+  stats_.filter_ms = whole.ms();
+  return stats_;
+}
+
+std::unique_ptr<Filter> make_linear_filter(const Window& state_window, const FilterOptions& options,
+                                           std::shared_ptr<const KernelTable> kernels) {
+  return std::make_unique<LinearFilter>(state_window, options, std::move(kernels));
+}
+
+}  // namespace pullfocus

@@ -1,0 +1,68 @@
+#include "filter/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "filter/core.h"
+#include "importance/select.h"
+
+namespace pullfocus {
+
+namespace {
+
+void measure_coc(const Frame& frame, const CocFunction& coc, const CocTable& table, Plan& plan) {
+  plan.coc_min = std::numeric_limits<float>::infinity();
+  plan.coc_max = -plan.coc_min;
+  plan.index_min = table.size();
+  plan.index_max = -table.size();
+  const Window& w = frame.window();
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      const float depth = frame.depth.at(x, y);
+      const bool background = is_background(coc.kind, depth);
+      const float c = background ? coc.background() : coc(depth);
+      plan.background += background;
+      plan.coc_min = std::min(plan.coc_min, c);
+      plan.coc_max = std::max(plan.coc_max, c);
+      plan.index_min = std::min<int>(plan.index_min, table.index(c));
+      plan.index_max = std::max<int>(plan.index_max, table.index(c));
+    }
+  }
+}
+
+}  // namespace
+
+Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const Frame& frame,
+               const CocFunction& coc, const Frame* next, const CocFunction& next_coc) {
+  Plan plan;
+  plan.window = frame.window();
+  plan.table_size = kernels.coc().size();
+  measure_coc(frame, coc, kernels.coc(), plan);
+
+  const Sanitiser sanitiser(kernels.options().max_radiance);
+  SourceState state;
+  state.reset(frame.window(), frame.colour.type());
+  std::vector<TileWork> tiles;
+  bool opaque = true;
+  plan.clamped_coc = commit_all(frame, coc, kernels.coc(), sanitiser, state, tiles, opaque).coc_clamped;
+  plan.alpha = !opaque;
+  plan.linear_edges = committed_edges(state, kernels);
+
+  const double colour = static_cast<double>(frame.colour.pixel_bytes());
+  const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
+  plan.state_bytes_per_pixel =
+      lanes * 8. + colour + 2 + 2 + 1. / 4;  // sums, colour, index, pending index, masks
+  plan.frame_bytes_per_pixel =
+      colour + 4 + 4. * static_cast<double>(sample_bytes(options.output_type.value_or(frame.colour.type())));
+
+  if (next != nullptr && next->window() == frame.window() && next->colour.type() == frame.colour.type()) {
+    std::vector<std::int16_t> pending(frame.window().pixels());
+    const Changes changes = find_changes(*next, next_coc, kernels.coc(), sanitiser, state, pending);
+    plan.changed_share = static_cast<double>(changes.pixels) / static_cast<double>(frame.window().pixels());
+    plan.next_edges = count_edges(changes.tiles, {*next, state, pending, kernels, sanitiser}).written;
+  }
+  return plan;
+}
+
+}  // namespace pullfocus

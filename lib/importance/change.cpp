@@ -1,0 +1,184 @@
+#include "importance/change.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace pullfocus {
+
+namespace {
+
+template <SampleType type>
+bool is_opaque(const Pixel<type>& pixel) noexcept {
+  return pixel.rgba[3] == (type == SampleType::half ? 0x3c00u : 0x3f800000u);
+}
+
+std::size_t at(const TileGrid& grid, int x, int y) noexcept {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+}
+
+TileGrid grid_of(const Window& window) noexcept { return {window.width(), window.height()}; }
+
+template <SampleType type>
+Pixel<type>* pixels_of(ColourImage& image, int x, int y) noexcept {
+  return reinterpret_cast<Pixel<type>*>(image.pixel(image.window().x0 + x, image.window().y0 + y));
+}
+
+template <SampleType type>
+const Pixel<type>* pixels_of(const ColourImage& image, int x, int y) noexcept {
+  return pixels_of<type>(const_cast<ColourImage&>(image), x, y);
+}
+
+// One row of tiles: what its task found.
+struct TileRow {
+  std::vector<TileWork> tiles;
+  std::int64_t pixels = 0;
+  bool opaque = true;
+  FrameFindings findings;
+};
+
+template <SampleType type>
+class Detector {
+ public:
+  Detector(const SegmentIngest<type>& ingest, const SourceState& state, std::vector<std::int16_t>& pending)
+      : ingest_(ingest), state_(state), pending_(pending), grid_(grid_of(state.colour.window())) {}
+
+  void run(int tile, TileRow& row) const {
+    TileWork work{tile, 0, {}};
+    for (int i = 0; i < grid_.tile_height(tile); ++i) {
+      work.mask.rows[i] =
+          segment(grid_.x(tile), grid_.y(tile) + i, grid_.tile_width(tile), work.max_index, row);
+    }
+    if (!work.mask.any()) return;
+    row.pixels += work.mask.count();
+    row.tiles.push_back(work);
+  }
+
+ private:
+  std::uint64_t segment(int x, int y, int n, int& max_index, TileRow& row) const {
+    std::int16_t index[kTileWidth];
+    ingest_.indices(x, y, n, index, row.findings);
+    ingest_.content(x, y, n, index, row.findings);
+
+    const std::int16_t* committed = &state_.index[at(grid_, x, y)];
+    const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
+    std::uint64_t changed = 0;
+    if (std::memcmp(index, committed, static_cast<std::size_t>(n) * sizeof *index) != 0) {
+      for (int i = 0; i < n; ++i) changed |= std::uint64_t{index[i] != committed[i]} << i;
+    }
+    // What was committed is sane, so equal bits are equal sane colours.
+    if (std::memcmp(ingest_.colours(x, y), old, static_cast<std::size_t>(n) * sizeof *old) != 0 ||
+        changed != 0) {
+      Pixel<type> pixels[kTileWidth];
+      ingest_.sanitised(x, y, n, pixels, row.findings);
+      for (int i = 0; i < n; ++i) changed |= std::uint64_t{!(pixels[i] == old[i])} << i;
+      for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
+    }
+    if (changed != 0) {
+      std::copy(index, index + n, &pending_[at(grid_, x, y)]);
+      for_each_pixel(changed, [&](int i) {
+        const int was = committed[i] == kNeverCommitted ? 0 : std::abs(static_cast<int>(committed[i]));
+        max_index = std::max({max_index, was, std::abs(static_cast<int>(index[i]))});
+      });
+    }
+    return changed;
+  }
+
+  const SegmentIngest<type>& ingest_;
+  const SourceState& state_;
+  std::vector<std::int16_t>& pending_;
+  const TileGrid grid_;
+};
+
+}  // namespace
+
+Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table,
+                     const Sanitiser& sanitiser, const SourceState& state,
+                     std::vector<std::int16_t>& pending) {
+  const TileGrid grid = grid_of(state.colour.window());
+  std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
+  dispatch(frame.colour.type(), [&]<SampleType type>() {
+    const SegmentIngest<type> ingest(frame, coc, table, sanitiser);
+    const Detector<type> detector(ingest, state, pending);
+    tbb::parallel_for(0, grid.rows(), [&](int r) {
+      for (int c = 0; c < grid.columns(); ++c) {
+        detector.run(r * grid.columns() + c, rows[static_cast<std::size_t>(r)]);
+      }
+    });
+  });
+  Changes changes;
+  for (const TileRow& row : rows) {
+    changes.tiles.insert(changes.tiles.end(), row.tiles.begin(), row.tiles.end());
+    changes.pixels += row.pixels;
+    changes.opaque &= row.opaque;
+    changes.findings.add(row.findings);
+  }
+  return changes;
+}
+
+FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table,
+                         const Sanitiser& sanitiser, SourceState& state, std::vector<TileWork>& tiles,
+                         bool& opaque) {
+  const TileGrid grid = grid_of(frame.window());
+  tiles.resize(static_cast<std::size_t>(grid.count()));
+  std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
+  dispatch(frame.colour.type(), [&]<SampleType type>() {
+    const SegmentIngest<type> ingest(frame, coc, table, sanitiser);
+    const auto segment = [&](int x, int y, int n, TileRow& row) {
+      std::int16_t* index = &state.index[at(grid, x, y)];
+      Pixel<type>* pixels = pixels_of<type>(state.colour, x, y);
+      ingest.indices(x, y, n, index, row.findings);
+      ingest.content(x, y, n, index, row.findings);
+      ingest.sanitised(x, y, n, pixels, row.findings);
+      int largest = 0;
+      for (int i = 0; i < n; ++i) {
+        largest = std::max(largest, std::abs(static_cast<int>(index[i])));
+        row.opaque &= is_opaque<type>(pixels[i]);
+      }
+      return largest;
+    };
+    tbb::parallel_for(0, grid.rows(), [&](int r) {
+      TileRow& row = rows[static_cast<std::size_t>(r)];
+      for (int c = 0; c < grid.columns(); ++c) {
+        const int tile = r * grid.columns() + c;
+        TileWork& work = tiles[static_cast<std::size_t>(tile)];
+        work = {tile, 0, {}};
+        for (int i = 0; i < grid.tile_height(tile); ++i) {
+          work.mask.rows[i] = first_pixels(grid.tile_width(tile));
+          work.max_index =
+              std::max(work.max_index, segment(grid.x(tile), grid.y(tile) + i, grid.tile_width(tile), row));
+        }
+      }
+    });
+  });
+  FrameFindings findings;
+  opaque = true;
+  for (const TileRow& row : rows) {
+    findings.add(row.findings);
+    opaque &= row.opaque;
+  }
+  return findings;
+}
+
+void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<std::int16_t>& pending,
+            const std::vector<TileWork>& tiles, SourceState& state) {
+  const TileGrid grid = grid_of(state.colour.window());
+  dispatch(frame.colour.type(), [&]<SampleType type>() {
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
+      const TileWork& work = tiles[t];
+      for (int i = 0; i < kTileHeight; ++i) {
+        if (work.mask.rows[i] == 0) continue;
+        const int x = grid.x(work.tile), y = grid.y(work.tile) + i;
+        const Pixel<type>* in = pixels_of<type>(frame.colour, x, y);
+        Pixel<type>* out = pixels_of<type>(state.colour, x, y);
+        for_each_pixel(work.mask.rows[i], [&](int p) {
+          out[p] = sanitiser(in[p]);
+          state.index[at(grid, x + p, y)] = pending[at(grid, x + p, y)];
+        });
+      }
+    });
+  });
+}
+
+}  // namespace pullfocus

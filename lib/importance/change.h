@@ -1,0 +1,40 @@
+// Change detection: which pixels of a frame differ from what was committed (DESIGN section 5, Fearing 1996,
+// section 4.1).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "importance/ingest.h"
+#include "scatter/kernel_table.h"
+#include "scatter/state.h"
+#include "scatter/tile_work.h"
+
+namespace pullfocus {
+
+// What one frame would change of a committed state.
+struct Changes {
+  std::vector<TileWork> tiles;  // tiles with changed pixels, in grid order
+  std::int64_t pixels = 0;
+  bool opaque = true;  // every changed pixel has an alpha of exactly 1
+  FrameFindings findings;
+};
+
+// Compares `frame` with `state` (same window and sample type), tile by tile. `pending` (one index per pixel,
+// row by row) receives the new indices of the tile rows that hold changed pixels, and keeps its values
+// elsewhere. Threads: runs in the calling task arena; the result does not depend on their number.
+Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table,
+                     const Sanitiser& sanitiser, const SourceState& state,
+                     std::vector<std::int16_t>& pending);
+
+// Takes over the whole frame into `state`, without looking at what it held. Fills `max_index` with the
+// largest |index| of every tile.
+FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table,
+                         const Sanitiser& sanitiser, SourceState& state, std::vector<TileWork>& tiles,
+                         bool& opaque);
+
+// Takes over the pixels of `tiles`.
+void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<std::int16_t>& pending,
+            const std::vector<TileWork>& tiles, SourceState& state);
+
+}  // namespace pullfocus

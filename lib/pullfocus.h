@@ -1,0 +1,45 @@
+// pullfocus: depth of field for rendered image sequences, recomputing only what changed.
+//
+// The whole story, in the order the data flows:
+//
+//   image/       Window, ColourImage, Plane; Frame = RGBA colour + depth over one window
+//   camera/      ThinLens and a depth kind give a CocFunction: depth -> signed circle of confusion in pixels;
+//                KeyedValue: focus, f-number and focal length over frames
+//   importance/  what changed against the committed state, how noticeable it is, which of it a budget affords
+//   scatter/     kernels as run edges; sources into destination bands
+//   resolve/     sums of weighted colour divided by sums of weight
+//   filter/      LinearFilter and IncrementalFilter behind one interface; Stats; the Plan; explain()
+//
+// Files are none of the core's business: exr/ (a library of its own) reads and writes sequences.
+//
+//   KernelOptions, FilterOptions   what to do; plain structs, validated by name
+//   auto filter = pullfocus::make_incremental_filter(window, options);
+//   for each frame:
+//     const Stats& stats = filter->filter(frame, coc_function(lens, raster, DepthKind::planar));
+//     use(filter->result(), filter->result_window());
+//
+// What holds everywhere:
+//   colours     premultiplied, scene-linear R,G,B,A; half or float32
+//   distances   scene units; lens measures in millimetres; circles of confusion are diameters in pixels, > 0
+//   behind focus exactness   with nothing left over, the incremental result equals the linear one bit for
+//   bit, whatever the history,
+//               the number of threads, and where a shot is cut
+//   threads     a filter uses FilterOptions::threads threads of oneTBB inside a call; one call at a time per
+//   filter errors      pullfocus::Error, whose text names what is wrong and what to do; a frame is refused
+//   before it changes
+//               anything
+//   memory      about 63 bytes a pixel for opaque half input, 97 for float input with alpha (make_plan()
+//   tells)
+#pragma once
+
+#include "camera/depth.h"
+#include "camera/keys.h"
+#include "camera/thin_lens.h"
+#include "filter/explain.h"
+#include "filter/filter.h"
+#include "filter/options.h"
+#include "filter/plan.h"
+#include "filter/stats.h"
+#include "image/error.h"
+#include "image/frame.h"
+#include "image/window.h"

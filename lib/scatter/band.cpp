@@ -1,0 +1,68 @@
+#include "scatter/band.h"
+
+namespace pullfocus {
+
+void Band::begin(const BandLayout& layout, int y0, int y1) {
+  layout_ = layout;
+  y0_ = y0;
+  y1_ = y1;
+  const auto padded = static_cast<std::size_t>(layout.width + 2 * layout.pad);
+  stride_ = padded * static_cast<std::size_t>(layout.lanes);
+  // An odd number of cache lines a row keeps the rows of one kernel out of the same cache sets.
+  stride_ = (stride_ + 7) / 8 * 8;
+  if (stride_ / 8 % 2 == 0) stride_ += 8;
+  words_ = (padded + kCell * 64 - 1) / (kCell * 64);
+  const auto rows = static_cast<std::size_t>(y1 - y0);
+  values_.resize(std::max(values_.size(), rows * stride_));  // finished rows are zero already
+  dirty_.assign(rows * words_, 0);
+}
+
+void Band::mark(int ya, int yb, int x0, int x1) noexcept {
+  ya = std::max(ya, y0_);
+  yb = std::min(yb, y1_);
+  const int first = (std::max(x0, -layout_.pad) + layout_.pad) / kCell;
+  const int last = (std::min(x1, layout_.width + layout_.pad) - 1 + layout_.pad) / kCell;
+  for (int y = ya; y < yb; ++y) {
+    std::uint64_t* bits = cells(y);
+    for (int word = first / 64; word <= last / 64; ++word) {
+      const int low = std::max(first - word * 64, 0), high = std::min(last - word * 64, 63);
+      bits[word] |= (~std::uint64_t{0} >> (63 - (high - low))) << low;
+    }
+  }
+}
+
+namespace {
+
+template <int lanes>
+void prefix_sum(Accumulator* values, int columns) noexcept {
+  Accumulator sum[lanes] = {};
+  for (int x = 0; x < columns; ++x, values += lanes) {
+    for (int c = 0; c < lanes; ++c) values[c] = sum[c] += values[c];
+  }
+}
+
+}  // namespace
+
+void Band::integrate(Accumulator* first, int columns) noexcept {
+  if (layout_.lanes == kOpaqueLanes) {
+    prefix_sum<kOpaqueLanes>(first, columns);
+  } else {
+    prefix_sum<kAlphaLanes>(first, columns);
+  }
+}
+
+void Band::fold(Accumulator* image_row, int from, int to) noexcept {
+  const int lanes = layout_.lanes;
+  const auto fold_column = [&](int x) {
+    Accumulator* out = image_row + static_cast<std::ptrdiff_t>(x) * lanes;
+    Accumulator* in = image_row + static_cast<std::ptrdiff_t>(mirror(x, layout_.width)) * lanes;
+    for (int c = 0; c < lanes; ++c) {
+      in[c] += out[c];
+      out[c] = 0;
+    }
+  };
+  for (int x = from; x < std::min(to, 0); ++x) fold_column(x);
+  for (int x = std::max(from, layout_.width); x < to; ++x) fold_column(x);
+}
+
+}  // namespace pullfocus

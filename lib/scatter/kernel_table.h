@@ -1,0 +1,38 @@
+// All kernels of a run: one per signed CoC index.
+#pragma once
+
+#include <vector>
+
+#include "scatter/coc_table.h"
+#include "scatter/kernel.h"
+
+namespace pullfocus {
+
+struct KernelOptions {
+  double coc_step = 1. / 32;   // share of the diameter between table entries, at least half a pixel; [0, 1]
+  double max_coc_px = 400;     // largest diameter, [1, 500]
+  double pixel_aspect = 1;     // pixel width / height, (0.1, 10)
+  float max_radiance = 65504;  // colours are clamped to +- this; the accumulators must hold it
+};
+
+class KernelTable {
+ public:
+  // Throws Error(usage) if the options are out of range, or if a sum could overflow int64: with B the sum
+  // over all offsets of the largest weight any index has there, B * (max_radiance + 1) must stay below 2^63.
+  explicit KernelTable(const KernelOptions& options);
+
+  const CocTable& coc() const noexcept { return coc_; }
+  const KernelOptions& options() const noexcept { return options_; }
+  const Kernel& kernel(int signed_index) const noexcept {
+    return kernels_[static_cast<std::size_t>(signed_index < 0 ? -signed_index : signed_index)];
+  }
+  double overlap_bound() const noexcept { return overlap_bound_; }  // B in units
+
+ private:
+  KernelOptions options_;
+  CocTable coc_;
+  std::vector<Kernel> kernels_;
+  double overlap_bound_ = 0;
+};
+
+}  // namespace pullfocus

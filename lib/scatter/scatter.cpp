@@ -1,0 +1,168 @@
+#include "scatter/scatter.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "scatter/emit.h"
+
+namespace pullfocus {
+
+namespace {
+
+constexpr int kChunk = 8;  // neighbouring sources written together
+
+}  // namespace
+
+// A band as kernels see it: kernel rows Y in [y0, y1) land on band row `first + (Y - y0) * direction`. The
+// band itself, and its mirror images past the top and bottom border that kernels still reach.
+struct Scatter::Mirrored {
+  int y0, y1;
+  int first, direction;
+
+  int band_row(int y) const noexcept { return first + (y - y0) * direction; }
+};
+
+Scatter::Scatter(const KernelTable& kernels, int width, int height)
+    : kernels_(kernels), grid_{width, height} {
+  int reach_x = 0, reach_y = 0;
+  for (int i = 0; i < kernels.coc().size(); ++i) {
+    reach_x = std::max(reach_x, kernels.kernel(i).radius_x);
+    reach_y = std::max(reach_y, kernels.kernel(i).radius_y);
+    reach_x_.push_back(reach_x);
+    reach_y_.push_back(reach_y);
+  }
+}
+
+namespace {
+
+template <int values>
+inline void add(Accumulator* out, const Accumulator* in) noexcept {
+  for (int i = 0; i < values; ++i) out[i] += in[i];
+}
+
+// Writes the edges of n sources, the first at image column x of row y, into the band rows of one mirror
+// image.
+template <int lanes, int n, typename Image>
+void write_edges(const Kernel& kernel, int x, int y, const Accumulator* steps, const Image& image,
+                 Band& band) {
+  const int from = std::max(y - kernel.radius_y, image.y0), to = std::min(y + kernel.radius_y + 1, image.y1);
+  for (int row = from; row < to; ++row) {
+    Accumulator* const out = band.row(image.band_row(row)) + static_cast<std::ptrdiff_t>(x) * lanes;
+    for (const KernelEdge& edge : kernel.row(row - y)) {
+      add<n * lanes>(out + static_cast<std::ptrdiff_t>(edge.dx) * lanes, steps + edge.step * (n * lanes));
+    }
+  }
+}
+
+template <int lanes, int n, bool with_minus, typename Image>
+void write_chunk(const Kernel& kernel, const Emission<lanes>* sources, int y, const Image& image,
+                 Band& band) {
+  alignas(64) Accumulator steps[kMaxKernelSteps * n * lanes];
+  step_values<lanes, with_minus>(kernel, sources, n, steps);
+  write_edges<lanes, n>(kernel, sources->x, y, steps, image, band);
+}
+
+// Splits a list of sources into chunks that are neighbours and share a kernel.
+template <int lanes, bool with_minus, typename Image>
+void write_sources(const KernelTable& kernels, const Emission<lanes>* sources, int count, int y,
+                   const Image& image, Band& band) {
+  for (int i = 0; i < count;) {
+    const Emission<lanes>* first = sources + i;
+    int n = 1;
+    while (n < kChunk && i + n < count && first[n].x == first->x + n && first[n].index == first->index) ++n;
+    const Kernel& kernel = kernels.kernel(first->index);
+    if (n == kChunk) {
+      write_chunk<lanes, kChunk, with_minus>(kernel, first, y, image, band);
+    } else if (n >= 4) {
+      write_chunk<lanes, 4, with_minus>(kernel, first, y, image, band);
+      n = 4;
+    } else if (n >= 2) {
+      write_chunk<lanes, 2, with_minus>(kernel, first, y, image, band);
+      n = 2;
+    } else {
+      write_chunk<lanes, 1, with_minus>(kernel, first, y, image, band);
+    }
+    i += n;
+  }
+}
+
+}  // namespace
+
+template <int lanes>
+void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& sources,
+                   const BandLayout& layout) const {
+  // Every reflection of the band within reach of the image: index k counts borders crossed, downwards.
+  std::vector<Mirrored> images;
+  const int h = layout.height, reach = reach_y_.empty() ? 0 : reach_y_.back();
+  const int most = reach / h + 2;
+  for (int k = -most; k <= most; ++k) {
+    const bool flipped = k % 2 != 0;
+    const int y0 = flipped ? (k + 1) * h - band.y1() : k * h + band.y0();
+    const int y1 = y0 + band.y1() - band.y0();
+    if (y0 < h + reach && y1 > -reach)
+      images.push_back({y0, y1, flipped ? band.y1() - 1 : band.y0(), flipped ? -1 : 1});
+  }
+
+  EmissionRow<lanes> row;
+  for (const Mirrored& image : images) {
+    for (const TileWork& work : tiles) {
+      const int x = grid_.x(work.tile), y = grid_.y(work.tile), tile_height = grid_.tile_height(work.tile);
+      const auto largest = static_cast<std::size_t>(work.max_index);
+      const int rx = reach_x_[largest], ry = reach_y_[largest];
+      const int ya = std::max(image.y0, y - ry), yb = std::min(image.y1, y + tile_height + ry);
+      if (ya >= yb) continue;
+      const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
+      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x - rx,
+                x + grid_.tile_width(work.tile) + rx + 1);
+      for (int i = 0; i < tile_height; ++i) {
+        if (work.mask.rows[i] == 0 || y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
+        dispatch(sources.state->colour.type(),
+                 [&]<SampleType type>() { collect<lanes, type>(sources, x, y + i, work.mask.rows[i], row); });
+        if (sources.frame == nullptr) {
+          write_sources<lanes, false>(kernels_, row.emissions, row.count, y + i, image, band);
+        } else {
+          write_sources<lanes, true>(kernels_, row.emissions, row.count, y + i, image, band);
+          write_sources<lanes, true>(kernels_, row.removed, row.removed_count, y + i, image, band);
+        }
+      }
+    }
+  }
+}
+
+void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads,
+                  const Take& take) {
+  if (tiles.empty()) return;
+  int largest = 0, y_first = grid_.height, y_last = 0;
+  for (const TileWork& work : tiles) {
+    const int reach = reach_y_[static_cast<std::size_t>(work.max_index)];
+    largest = std::max(largest, work.max_index);
+    y_first = std::min(y_first, grid_.y(work.tile) - reach);
+    y_last = std::max(y_last, grid_.y(work.tile) + grid_.tile_height(work.tile) + reach);
+  }
+  // Mirrored rows land no farther from the border than the reach beyond it, so these bounds hold them too.
+  y_first = std::max(y_first, 0);
+  y_last = std::min(y_last, grid_.height);
+  const BandLayout layout{grid_.width, grid_.height, reach_x_[static_cast<std::size_t>(largest)] + 1, lanes};
+
+  // Tall bands visit each source seldom, low ones stay in cache and feed all threads.
+  const int span = y_last - y_first;
+  const int share = (span + 4 * threads - 1) / (4 * threads);
+  const int band_rows = std::clamp(share, 16, 64);
+  const int band_count = (span + band_rows - 1) / band_rows;
+  tbb::parallel_for(0, band_count, [&](int b) {
+    Band& band = bands_.local();
+    const int y0 = y_first + b * band_rows;
+    band.begin(layout, y0, std::min(y0 + band_rows, y_last));
+    if (lanes == kOpaqueLanes) {
+      fill<kOpaqueLanes>(band, tiles, sources, layout);
+    } else {
+      fill<kAlphaLanes>(band, tiles, sources, layout);
+    }
+    for (int y = band.y0(); y < band.y1(); ++y) {
+      band.finish_row(y, [&](int x0, int x1, const Accumulator* values) { take(y, x0, x1, values); });
+    }
+  });
+}
+
+}  // namespace pullfocus

@@ -1,0 +1,57 @@
+// Scatter: sources into destination bands, as run edges, and the finished rows to whoever wants them.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "image/frame.h"
+#include "image/sanitise.h"
+#include "scatter/band.h"
+#include "scatter/kernel_table.h"
+#include "scatter/state.h"
+#include "scatter/tile_work.h"
+
+namespace pullfocus {
+
+// What the selected pixels contribute.
+struct Sources {
+  const SourceState* state = nullptr;  // committed sources
+
+  // Null: the committed state itself. Otherwise the change from it to this frame, whose new indices are
+  // `pending` (row by row). Same window and sample type as the state.
+  const Frame* frame = nullptr;
+  const std::int16_t* pending = nullptr;
+  const Sanitiser* sanitiser = nullptr;
+};
+
+class Scatter {
+ public:
+  // `kernels` must outlive this. Size of the state window in pixels.
+  Scatter(const KernelTable& kernels, int width, int height);
+
+  // A span of one finished row: the sum of all given contributions to columns [x0, x1) of row y, `lanes`
+  // accumulators a pixel. Rows come in any order and from several threads, the spans of one row from one
+  // thread.
+  using Take = std::function<void(int y, int x0, int x1, const Accumulator* values)>;
+
+  // Scatters the masked pixels of `tiles` and hands over all spans they may reach. `lanes`: kOpaqueLanes or
+  // kAlphaLanes. Runs in the calling task arena with up to `threads` bands at a time; the sums do not depend
+  // on it.
+  void run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads, const Take& take);
+
+ private:
+  struct Mirrored;
+  template <int lanes>
+  void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources,
+            const BandLayout& layout) const;
+
+  const KernelTable& kernels_;
+  const TileGrid grid_;
+  std::vector<int> reach_x_, reach_y_;  // by |index|: the largest radii of indices up to it
+  tbb::enumerable_thread_specific<Band> bands_;
+};
+
+}  // namespace pullfocus

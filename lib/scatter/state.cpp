@@ -1,0 +1,52 @@
+#include "scatter/state.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+namespace pullfocus {
+
+namespace {
+
+const std::int16_t* row_of(const SourceState& state, int y) noexcept {
+  return state.index.data() +
+         static_cast<std::size_t>(y) * static_cast<std::size_t>(state.colour.window().width());
+}
+
+}  // namespace
+
+std::vector<TileWork> whole_state(const SourceState& state) {
+  const TileGrid grid{state.colour.window().width(), state.colour.window().height()};
+  std::vector<TileWork> tiles(static_cast<std::size_t>(grid.count()));
+  tbb::parallel_for(0, grid.count(), [&](int tile) {
+    TileWork& work = tiles[static_cast<std::size_t>(tile)];
+    work.tile = tile;
+    for (int i = 0; i < grid.tile_height(tile); ++i) {
+      const std::int16_t* index = row_of(state, grid.y(tile) + i) + grid.x(tile);
+      for (int p = 0; p < grid.tile_width(tile); ++p) {
+        if (index[p] == kNeverCommitted) continue;
+        work.mask.rows[i] |= std::uint64_t{1} << p;
+        work.max_index = std::max(work.max_index, std::abs(static_cast<int>(index[p])));
+      }
+    }
+  });
+  std::erase_if(tiles, [](const TileWork& work) { return !work.mask.any(); });
+  return tiles;
+}
+
+std::int64_t committed_edges(const SourceState& state, const KernelTable& kernels) {
+  const int width = state.colour.window().width(), height = state.colour.window().height();
+  std::vector<std::int64_t> rows(static_cast<std::size_t>(height));
+  tbb::parallel_for(0, height, [&](int y) {
+    const std::int16_t* index = row_of(state, y);
+    std::int64_t sum = 0;
+    for (int x = 0; x < width; ++x)
+      sum += index[x] == kNeverCommitted ? 0 : kernels.kernel(index[x]).edge_count();
+    rows[static_cast<std::size_t>(y)] = sum;
+  });
+  return std::accumulate(rows.begin(), rows.end(), std::int64_t{0});
+}
+
+}  // namespace pullfocus

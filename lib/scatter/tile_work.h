@@ -1,0 +1,14 @@
+// Sources to scatter, by tile.
+#pragma once
+
+#include "image/tiles.h"
+
+namespace pullfocus {
+
+struct TileWork {
+  int tile = 0;       // position in the TileGrid
+  int max_index = 0;  // no source of the mask, old or new, has a larger |index|
+  TileMask mask;
+};
+
+}  // namespace pullfocus
