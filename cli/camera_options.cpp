@@ -26,30 +26,23 @@ FocusPixel FocusPixel::parse(const std::string& text) {
 
 void add_camera_options(CLI::App& app, CameraArguments& a) {
   const char* group = "Camera";
-  app.add_option("--focal-length", a.focal_length, "focal length in mm: VALUE, FRAME:VALUE,... or @FILE")
-      ->group(group);
+  app.add_option("--focal-length", a.focal_length, "focal length in mm: VALUE, FRAME:VALUE,... or @FILE")->group(group);
   app.add_option("--fstop", a.fstop, "f-number: VALUE, FRAME:VALUE,... or @FILE")->group(group);
   app.add_option("--focus", a.focus,
                  "distance in focus, in scene units, may be inf: VALUE, FRAME:VALUE,... or @FILE (TOML keys)")
       ->group(group);
-  app.add_option("--focus-at", a.focus_at,
-                 "X,Y[@FRAME]: focus on the depth of that pixel (of the shot's first frame)")
+  app.add_option("--focus-at", a.focus_at, "X,Y[@FRAME]: focus on the depth of that pixel (of the shot's first frame)")
       ->group(group);
-  app.add_option("--focus-interp", a.focus_interp,
-                 "between focus keys: dioptre (default), distance or smooth")
+  app.add_option("--focus-interp", a.focus_interp, "between focus keys: dioptre (default), distance or smooth")
       ->group(group);
   app.add_option("--lens", a.lens, "render: as renderers' cameras do; paper: a real lens, which breathes")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--sensor-width", a.sensor_width,
-                 "sensor size in mm along --sensor-fit (default: header, else 36)")
+  app.add_option("--sensor-width", a.sensor_width, "sensor size in mm along --sensor-fit (default: header, else 36)")
       ->group(group);
-  app.add_option("--sensor-fit", a.sensor_fit, "horizontal, vertical or auto")
-      ->group(group)
-      ->capture_default_str();
+  app.add_option("--sensor-fit", a.sensor_fit, "horizontal, vertical or auto")->group(group)->capture_default_str();
   app.add_option("--unit", a.unit, "metres per scene unit")->group(group)->capture_default_str();
-  app.add_option("--depth-kind", a.depth_kind,
-                 "planar: distance along the axis; coc: signed CoC diameter in pixels")
+  app.add_option("--depth-kind", a.depth_kind, "planar: distance along the axis; coc: signed CoC diameter in pixels")
       ->group(group)
       ->capture_default_str();
 }
@@ -57,16 +50,14 @@ void add_camera_options(CLI::App& app, CameraArguments& a) {
 namespace {
 
 // A setting as typed, `@FILE` resolved. `member` picks the setting out of a key file.
-std::optional<KeyedValue> setting(const std::optional<std::string>& text, const char* option,
-                                  Infinity infinity, std::optional<KeyedValue> CameraKeys::*member,
-                                  std::optional<FocusInterp>* interp) {
+std::optional<KeyedValue> setting(const std::optional<std::string>& text, const char* option, Infinity infinity,
+                                  std::optional<KeyedValue> CameraKeys::*member, std::optional<FocusInterp>* interp) {
   if (!text) return std::nullopt;
   if (!text->starts_with('@')) return KeyedValue::parse(*text, option, infinity);
   const std::string path = text->substr(1);
   try {
     const CameraKeys keys = load_camera_keys(path);
-    if (!(keys.*member))
-      throw Error(ErrorCode::usage, fmt::format("{} @{}: the file has no such keys", option, path));
+    if (!(keys.*member)) throw Error(ErrorCode::usage, fmt::format("{} @{}: the file has no such keys", option, path));
     if (interp != nullptr) *interp = keys.interpolation;
     return keys.*member;
   } catch (const Error& error) {
@@ -91,8 +82,7 @@ Camera::Camera(const CameraArguments& a) : sensor_width_(a.sensor_width), unit_(
     throw Error(ErrorCode::usage, "--focus and --focus-at exclude each other: give one of them");
 
   std::optional<FocusInterp> stored;
-  focal_length_ =
-      setting(a.focal_length, "--focal-length", Infinity::refused, &CameraKeys::focal_length, nullptr);
+  focal_length_ = setting(a.focal_length, "--focal-length", Infinity::refused, &CameraKeys::focal_length, nullptr);
   fstop_ = setting(a.fstop, "--fstop", Infinity::refused, &CameraKeys::fstop, nullptr);
   focus_ = setting(a.focus, "--focus", Infinity::legal, &CameraKeys::focus, &stored);
   if (a.focus_at) focus_pixel_ = FocusPixel::parse(*a.focus_at);
@@ -111,9 +101,7 @@ CameraSource Camera::lens(int frame, const exr::FileInfo& file) const {
   lens.metres_per_unit = unit_;
   const exr::CameraAttributes& header = file.camera;
   std::string missing;
-  const auto lacks = [&](const char* option) {
-    missing += (missing.empty() ? "" : ", ") + std::string(option);
-  };
+  const auto lacks = [&](const char* option) { missing += (missing.empty() ? "" : ", ") + std::string(option); };
 
   if (focal_length_) {
     lens.focal_length_mm = focal_length_->linear_at(frame);
@@ -146,12 +134,10 @@ CameraSource Camera::lens(int frame, const exr::FileInfo& file) const {
     lacks("--focus (or --focus-at)");
   }
   if (!missing.empty()) {
-    throw Error(
-        ErrorCode::usage,
-        fmt::format(
-            "frame {} ({}): the camera is not complete: neither the file's header nor the command line "
-            "gives {}",
-            frame, file.path, missing));
+    throw Error(ErrorCode::usage,
+                fmt::format("frame {} ({}): the camera is not complete: neither the file's header nor the command line "
+                            "gives {}",
+                            frame, file.path, missing));
   }
 
   const Raster raster = raster_of(file);
@@ -175,10 +161,9 @@ CocFunction Camera::coc(int frame, const exr::FileInfo& file) const {
 std::string Camera::describe(int frame, const exr::FileInfo& file) const {
   if (depth_kind_ == DepthKind::coc) return "depth_kind=coc";
   const ThinLens l = lens(frame, file).lens;
-  return fmt::format(
-      "depth_kind={} focal_length_mm={} fstop={} focus={} lens={} sensor_mm={} sensor_fit={} unit_m={}",
-      name(depth_kind_), l.focal_length_mm, l.f_number, l.focus_distance, name(l.model), l.sensor_mm,
-      name(l.fit), l.metres_per_unit);
+  return fmt::format("depth_kind={} focal_length_mm={} fstop={} focus={} lens={} sensor_mm={} sensor_fit={} unit_m={}",
+                     name(depth_kind_), l.focal_length_mm, l.f_number, l.focus_distance, name(l.model), l.sensor_mm,
+                     name(l.fit), l.metres_per_unit);
 }
 
 Raster raster_of(const exr::FileInfo& file) {

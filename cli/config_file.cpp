@@ -18,12 +18,10 @@ std::string value_text(const toml::node& node, const std::string& where) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   if (const auto* array = node.as_array()) {
     std::string joined;
-    for (const toml::node& element : *array)
-      joined += (joined.empty() ? "" : ",") + value_text(element, where);
+    for (const toml::node& element : *array) joined += (joined.empty() ? "" : ",") + value_text(element, where);
     return joined;
   }
-  throw Error(ErrorCode::usage,
-              where + " must be a text, a number, true, false, or a list of texts and numbers");
+  throw Error(ErrorCode::usage, where + " must be a text, a number, true, false, or a list of texts and numbers");
 }
 
 std::vector<std::string> load(const std::string& path) {
@@ -44,8 +42,7 @@ std::vector<std::string> load(const std::string& path) {
       if (flag->get()) options.push_back("--" + name);
       continue;
     }
-    options.push_back(
-        fmt::format("--{}={}", name, value_text(node, fmt::format("--config {}: {}", path, name))));
+    options.push_back(fmt::format("--{}={}", name, value_text(node, fmt::format("--config {}: {}", path, name))));
   }
   return options;
 }

@@ -19,9 +19,7 @@ Run add_filter_command(CLI::App& app) {
 
   const char* group = "Output";
   RunArguments& run = a->run;
-  app.add_option("-o,--out", run.output, "folder, pattern, or file name for a single frame")
-      ->required()
-      ->group(group);
+  app.add_option("-o,--out", run.output, "folder, pattern, or file name for a single frame")->required()->group(group);
   app.add_option("--output", run.output_kind, "result; coc: signed CoC diameters; depth: depth as understood")
       ->group(group)
       ->capture_default_str();

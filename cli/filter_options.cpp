@@ -8,8 +8,7 @@ namespace pullfocus::cli {
 
 void add_filter_options(CLI::App& app, FilterArguments& a) {
   const char* group = "Filter";
-  app.add_option("--method", a.method,
-                 "incremental: only what changed; linear: every frame anew; same result")
+  app.add_option("--method", a.method, "incremental: only what changed; linear: every frame anew; same result")
       ->group(group)
       ->capture_default_str();
   app.add_option("--visibility", a.visibility, "none: plain scatter")->group(group)->capture_default_str();
@@ -31,11 +30,8 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
   app.add_option("--max-radiance", a.max_radiance, "colours are clamped to this magnitude")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--output-type", a.output_type, "half or float (default: as the input's colour)")
-      ->group(group);
-  app.add_option("--threads", a.threads, "number of threads; 0: one a processor")
-      ->group(group)
-      ->capture_default_str();
+  app.add_option("--output-type", a.output_type, "half or float (default: as the input's colour)")->group(group);
+  app.add_option("--threads", a.threads, "number of threads; 0: one a processor")->group(group)->capture_default_str();
 }
 
 Method parse_method(const std::string& text) {

@@ -45,8 +45,8 @@ void prepare_folder(const exr::OutputNames& names, bool make) {
 
 }  // namespace
 
-FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera,
-                     const FilterArguments& filter, const RunArguments& run)
+FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera, const FilterArguments& filter,
+                     const RunArguments& run)
     : arguments_(run),
       kind_(parse_output_kind(run.output_kind)),
       compression_(compression_of(run)),
@@ -129,11 +129,10 @@ void FilterRun::check_strictly(const FrameRecord& r) const {
   if (s.repaired_colour + s.repaired_depth + s.clamped_radiance == 0) return;
   throw Error(
       ErrorCode::content,
-      fmt::format(
-          "frame {}: {}: --strict: {} pixels with NaN or infinite colour, {} with an invalid depth in {}, {} "
-          "beyond --max-radiance",
-          r.frame, current_.file.path, s.repaired_colour, s.repaired_depth, current_.selection.depth,
-          s.clamped_radiance));
+      fmt::format("frame {}: {}: --strict: {} pixels with NaN or infinite colour, {} with an invalid depth in {}, {} "
+                  "beyond --max-radiance",
+                  r.frame, current_.file.path, s.repaired_colour, s.repaired_depth, current_.selection.depth,
+                  s.clamped_radiance));
 }
 
 Imf::Header FilterRun::header(const exr::SequenceFrame& from, const Window& data_window) const {
@@ -142,8 +141,8 @@ Imf::Header FilterRun::header(const exr::SequenceFrame& from, const Window& data
     header.insert(attribute, Imf::StringAttribute(text));
   };
   say("pullfocus.version", kVersion);
-  say("pullfocus.method", fmt::format("{} visibility=none coc_step={} max_coc={}", method_,
-                                      options_.kernel.coc_step, options_.kernel.max_coc_px));
+  say("pullfocus.method", fmt::format("{} visibility=none coc_step={} max_coc={}", method_, options_.kernel.coc_step,
+                                      options_.kernel.max_coc_px));
   say("pullfocus.camera", shot_.camera().describe(from.frame, current_.file));
   return header;
 }
@@ -180,19 +179,16 @@ void FilterRun::write_values(const exr::SequenceFrame& from) {
 }
 
 void FilterRun::say_summary() const {
-  const auto list = [](const std::set<int>& frames) {
-    return exr::format_frames({frames.begin(), frames.end()});
-  };
+  const auto list = [](const std::set<int>& frames) { return exr::format_frames({frames.begin(), frames.end()}); };
   const Stats& t = totals_;
   if (t.repaired_colour + t.repaired_depth + t.clamped_radiance + t.clamped_coc > 0 || outside_ > 0) {
-    warn(fmt::format(
-        "repaired over all frames: {} pixels with NaN or infinite colour (taken as 0), {} with an invalid "
-        "depth (taken as background), {} clamped to --max-radiance, {} clamped to --max-coc, {} outside "
-        "the picture and --overscan",
-        t.repaired_colour, t.repaired_depth, t.clamped_radiance, t.clamped_coc, outside_));
+    warn(
+        fmt::format("repaired over all frames: {} pixels with NaN or infinite colour (taken as 0), {} with an invalid "
+                    "depth (taken as background), {} clamped to --max-radiance, {} clamped to --max-coc, {} outside "
+                    "the picture and --overscan",
+                    t.repaired_colour, t.repaired_depth, t.clamped_radiance, t.clamped_coc, outside_));
   }
-  if (!kept_.empty())
-    warn(fmt::format("frames {} were there already and were kept (--no-clobber)", list(kept_)));
+  if (!kept_.empty()) warn(fmt::format("frames {} were there already and were kept (--no-clobber)", list(kept_)));
   if (!failed_.empty()) warn(fmt::format("frames {} failed and were skipped", list(failed_)));
 }
 

@@ -29,9 +29,7 @@ void say(const char* what, fmt::format_string<Values...> format, Values&&... val
   fmt::print("{:<14}{}\n", what, fmt::format(format, std::forward<Values>(values)...));
 }
 
-std::string window_text(const Window& w) {
-  return fmt::format("{}x{} from {},{}", w.width(), w.height(), w.x0, w.y0);
-}
+std::string window_text(const Window& w) { return fmt::format("{}x{} from {},{}", w.width(), w.height(), w.x0, w.y0); }
 
 std::string names_of(const std::vector<exr::NamedChannel>& channels, const std::string& except) {
   std::string text;
@@ -54,8 +52,7 @@ void say_files(const Shot& shot, const ShotFrame& read) {
       window_text(sequence.data_union), window_text(shot.state_window()));
   if (read.file.pixel_aspect != 1) say("pixel aspect", "{}: kernels are elliptical", read.file.pixel_aspect);
   say("colour", "{} ({}, {}){}", names_of(read.selection.colour, ""),
-      channel_types(read.file, read.selection.colour[0].file_name),
-      exr::compression_name(read.file.compression),
+      channel_types(read.file, read.selection.colour[0].file_name), exr::compression_name(read.file.compression),
       read.selection.view.empty() ? "" : ", view " + read.selection.view);
   say("passed on", "{}", names_of(read.selection.extra, ""));
 }
@@ -87,19 +84,18 @@ void say_camera(const Shot& shot, const exr::SequenceFrame& from, const exr::Fil
   if (shot.camera().depth_kind() == DepthKind::coc) return say("camera", "none needed");
   const CameraSource found = shot.camera().lens(from.frame, file);
   const ThinLens& l = found.lens;
-  say("camera", "{:g} mm ({}), f/{:g} ({}), focus {:g} ({})", l.focal_length_mm, found.focal_length,
-      l.f_number, found.fstop, l.focus_distance, found.focus);
-  say("", "sensor {:g} mm {} ({}), lens model {}, {:g} m a scene unit", l.sensor_mm, name(l.fit),
-      found.sensor, name(l.model), l.metres_per_unit);
+  say("camera", "{:g} mm ({}), f/{:g} ({}), focus {:g} ({})", l.focal_length_mm, found.focal_length, l.f_number,
+      found.fstop, l.focus_distance, found.focus);
+  say("", "sensor {:g} mm {} ({}), lens model {}, {:g} m a scene unit", l.sensor_mm, name(l.fit), found.sensor,
+      name(l.model), l.metres_per_unit);
 }
 
 void say_plan(const Plan& plan, const FilterOptions& options) {
   const double pixels = static_cast<double>(plan.window.pixels());
-  say("CoC", "{:.2f} to {:.2f} px (in front < 0 < behind); table indices {} to {} of {}", plan.coc_min,
-      plan.coc_max, plan.index_min, plan.index_max, plan.table_size);
+  say("CoC", "{:.2f} to {:.2f} px (in front < 0 < behind); table indices {} to {} of {}", plan.coc_min, plan.coc_max,
+      plan.index_min, plan.index_max, plan.table_size);
   if (plan.clamped_coc > 0) {
-    say("", "{} pixels are beyond --max-coc {:g} and are clamped to it", plan.clamped_coc,
-        options.kernel.max_coc_px);
+    say("", "{} pixels are beyond --max-coc {:g} and are clamped to it", plan.clamped_coc, options.kernel.max_coc_px);
   }
   say("plan", "visibility none: a single layer; alpha {}",
       plan.alpha ? "is filtered too" : "is 1 everywhere: not accumulated");
@@ -112,17 +108,16 @@ void say_plan(const Plan& plan, const FilterOptions& options) {
   say("next frame", "{:.2f} % of pixels change; their edges are {:.1f} % of a linear frame's",
       100 * *plan.changed_share, 100 * work);
   if (work > 0.8) {
-    say("",
-        "little will be saved: noise or a moving camera changes nearly everything, and frames are rebuilt");
+    say("", "little will be saved: noise or a moving camera changes nearly everything, and frames are rebuilt");
   }
 }
 
-void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction& coc,
-                     const KernelTable& kernels, const std::string& text) {
+void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction& coc, const KernelTable& kernels,
+                     const std::string& text) {
   const FocusPixel pixel = FocusPixel::parse(text);
   if (!shot.state_window().contains(pixel.x, pixel.y)) {
-    throw Error(ErrorCode::usage, fmt::format("--explain {}: outside the state window, {}", text,
-                                              window_text(shot.state_window())));
+    throw Error(ErrorCode::usage,
+                fmt::format("--explain {}: outside the state window, {}", text, window_text(shot.state_window())));
   }
   const Explanation e = explain(read.frame, coc, kernels, pixel.x, pixel.y, 8);
   say("pixel", "{},{}: depth {:g}{}; CoC {:.3f} px; index {}, kernel {:g} px wide", pixel.x, pixel.y, e.depth,
@@ -173,8 +168,7 @@ Run add_inspect_command(CLI::App& app) {
   add_input_options(app, a->input);
   add_camera_options(app, a->camera);
   add_filter_options(app, a->filter);
-  app.add_option("--explain", a->explain,
-                 "X,Y: tell of one pixel of the first frame: depth, CoC, who covers it")
+  app.add_option("--explain", a->explain, "X,Y: tell of one pixel of the first frame: depth, CoC, who covers it")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   return [a] { return inspect(*a); };
 }

@@ -31,8 +31,7 @@ Key read_key(const toml::node& node, const std::string& where) {
   return {static_cast<int>(frame), *(*pair)[1].value<double>()};
 }
 
-KeyedValue read_setting(const toml::node& node, std::string_view file, std::string_view what,
-                        Infinity infinity) {
+KeyedValue read_setting(const toml::node& node, std::string_view file, std::string_view what, Infinity infinity) {
   const std::string where = place(file, node.source(), what);
   if (node.is_number()) return {*node.value<double>(), where, infinity};
   const toml::array* list = node.as_array();
@@ -80,8 +79,7 @@ std::string setting_text(std::string_view what, const std::optional<KeyedValue>&
 CameraKeys load_camera_keys(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
-    throw Error(ErrorCode::unreadable,
-                fmt::format("{}: cannot be read; give a file of camera keys", file.string()));
+    throw Error(ErrorCode::unreadable, fmt::format("{}: cannot be read; give a file of camera keys", file.string()));
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   try {
     return read_table(toml::parse(text, file.string()), file.string());
@@ -94,9 +92,8 @@ void save_camera_keys(const CameraKeys& keys, const std::filesystem::path& file)
   std::filesystem::path draft = file;
   draft += ".temp";
   std::ofstream out(draft, std::ios::binary);
-  out << fmt::format("interpolation = \"{}\"\n", name(keys.interpolation))
-      << setting_text("focus", keys.focus) << setting_text("fstop", keys.fstop)
-      << setting_text("focal_length", keys.focal_length);
+  out << fmt::format("interpolation = \"{}\"\n", name(keys.interpolation)) << setting_text("focus", keys.focus)
+      << setting_text("fstop", keys.fstop) << setting_text("focal_length", keys.focal_length);
   out.close();
   std::error_code failure;
   if (out) std::filesystem::rename(draft, file, failure);

@@ -13,8 +13,7 @@ namespace {
 using namespace pullfocus;
 
 int run(int argc, char** argv) {
-  CLI::App app("Adds depth of field to rendered image sequences, recomputing only what changed.",
-               "pullfocus");
+  CLI::App app("Adds depth of field to rendered image sequences, recomputing only what changed.", "pullfocus");
   app.set_version_flag("--version", std::string("pullfocus ") + kVersion);
   app.require_subcommand(1);
   std::map<const CLI::App*, cli::Run> commands;
@@ -49,11 +48,9 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const pullfocus::Error& error) {
     std::fprintf(stderr, "pullfocus: %s\n", error.what());
-    return error.code() == pullfocus::ErrorCode::usage ? pullfocus::cli::kWrongUsage
-                                                       : pullfocus::cli::kFrameFailed;
+    return error.code() == pullfocus::ErrorCode::usage ? pullfocus::cli::kWrongUsage : pullfocus::cli::kFrameFailed;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr,
-                 "pullfocus: out of memory: use fewer --threads, less --overscan, or a larger machine\n");
+    std::fprintf(stderr, "pullfocus: out of memory: use fewer --threads, less --overscan, or a larger machine\n");
     return pullfocus::cli::kFrameFailed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pullfocus: %s\n", error.what());

@@ -35,32 +35,30 @@ void write_frame(const std::string& path, const sequences::StarLateral& scene, c
   Imf::addAperture(header, static_cast<float>(lens.f_number));
   header.insert("nominalFocalLength", Imf::FloatAttribute(static_cast<float>(lens.focal_length_mm)));
   header.insert("sensorOverallDimensions",
-                Imf::V2fAttribute({static_cast<float>(lens.sensor_mm),
-                                   static_cast<float>(sequences::star_sensor_height_mm(scene))}));
+                Imf::V2fAttribute(
+                    {static_cast<float>(lens.sensor_mm), static_cast<float>(sequences::star_sensor_height_mm(scene))}));
   header.insert("comments", Imf::StringAttribute(std::string(sequences::star_lateral_description)));
 
   exr::Selection selection;
   for (const char* name : {"R", "G", "B"}) selection.colour.push_back({name, name});
   auto channels = exr::colour_channels(frame.colour, selection, w);
-  channels.push_back({"Z", Imf::FLOAT, reinterpret_cast<const std::byte*>(frame.depth.row(w.y0)),
-                      sizeof(float), sizeof(float) * static_cast<std::size_t>(w.width())});
+  channels.push_back({"Z", Imf::FLOAT, reinterpret_cast<const std::byte*>(frame.depth.row(w.y0)), sizeof(float),
+                      sizeof(float) * static_cast<std::size_t>(w.width())});
   exr::write_exr(path, header, channels);
 }
 
 int render(const Arguments& a) {
   if (a.scene != sequences::star_lateral_name) {
-    throw Error(ErrorCode::usage,
-                fmt::format("scene '{}' is not known: use {} ({})", a.scene, sequences::star_lateral_name,
-                            sequences::star_lateral_description));
+    throw Error(ErrorCode::usage, fmt::format("scene '{}' is not known: use {} ({})", a.scene,
+                                              sequences::star_lateral_name, sequences::star_lateral_description));
   }
   sequences::StarLateral scene;
   int used = 0;
   if (std::sscanf(a.size.c_str(), "%dx%d%n", &scene.width, &scene.height, &used) != 2 ||
       used != static_cast<int>(a.size.size()) || scene.width < 1 || scene.height < 1 || scene.width > 16384 ||
       scene.height > 16384) {
-    throw Error(
-        ErrorCode::usage,
-        fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, 1 to 16384 each, such as 1920x1080", a.size));
+    throw Error(ErrorCode::usage,
+                fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, 1 to 16384 each, such as 1920x1080", a.size));
   }
   const std::vector<int> frames = exr::parse_frames(a.frames);
   if (a.threads < 0 || a.threads > 1024) {
@@ -94,8 +92,7 @@ Run add_render_command(CLI::App& app) {
       ->type_name("SCENE");
   app.add_option("-o,--out", a->output, "folder for SCENE.####.exr; made if it is not there")->required();
   app.add_option("--size", a->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  app.add_option("--frames", a->frames, "which frames; the motion always takes frames 1 to 100")
-      ->capture_default_str();
+  app.add_option("--frames", a->frames, "which frames; the motion always takes frames 1 to 100")->capture_default_str();
   app.add_option("--threads", a->threads, "number of threads; 0: one a processor")->capture_default_str();
   return [a] { return render(*a); };
 }

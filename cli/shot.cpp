@@ -19,14 +19,11 @@ void add_input_options(CLI::App& app, InputArguments& a) {
       ->type_name("IN");
   app.add_option("--frames", a.frames, "which frames, such as 1-10,12-100x2 (default: all that are there)")
       ->group(group);
-  app.add_option("--layer", a.layer, "colour layer, such as ViewLayer.Combined (default: found by name)")
-      ->group(group);
+  app.add_option("--layer", a.layer, "colour layer, such as ViewLayer.Combined (default: found by name)")->group(group);
   app.add_option("--view", a.view, "view of a multi-view file (default: its first)")->group(group);
-  app.add_option("--depth-channel", a.depth_channel,
-                 "depth channel by its full name (default: found by name)")
+  app.add_option("--depth-channel", a.depth_channel, "depth channel by its full name (default: found by name)")
       ->group(group);
-  app.add_option("--overscan", a.overscan,
-                 "room around the display window: auto (all data of the shot) or L,T,R,B")
+  app.add_option("--overscan", a.overscan, "room around the display window: auto (all data of the shot) or L,T,R,B")
       ->group(group)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->capture_default_str();
@@ -43,8 +40,8 @@ exr::Sequence open(const InputArguments& input, exr::BadFrames bad_frames) {
 Shot::Shot(const InputArguments& input, const CameraArguments& camera, exr::BadFrames bad_frames)
     : channels_{input.layer, input.view, input.depth_channel},
       sequence_((exr::parse_overscan(input.overscan), open(input, bad_frames))),
-      state_window_(exr::state_window(sequence_.display_window, sequence_.data_union,
-                                      exr::parse_overscan(input.overscan))),
+      state_window_(
+          exr::state_window(sequence_.display_window, sequence_.data_union, exr::parse_overscan(input.overscan))),
       camera_(camera) {
   if (!sequence_.gaps.empty()) {
     warn(fmt::format("{}: frames {} are missing between the first and the last", sequence_.pattern.text(),
@@ -64,8 +61,7 @@ void Shot::read(const exr::SequenceFrame& from, ShotFrame& out, bool with_extra)
     exr::FrameReader reader(from.path);
     out.file = reader.info();
     if (out.file.display_window != sequence_.display_window) {
-      throw Error(ErrorCode::unreadable,
-                  fmt::format("{}: the display window changed since the run began", from.path));
+      throw Error(ErrorCode::unreadable, fmt::format("{}: the display window changed since the run began", from.path));
     }
     out.selection = exr::select_channels(out.file.channel_names(), channels_);
     out.outside = reader.read(out.selection, state_window_, out.frame, with_extra ? &out.extra : nullptr);
@@ -77,14 +73,12 @@ void Shot::read(const exr::SequenceFrame& from, ShotFrame& out, bool with_extra)
 // The shot's first frame, not the first one of --frames: every chunk of a shot must focus alike.
 double Shot::depth_at_focus_pixel(const FocusPixel& pixel) const {
   if (camera_.depth_kind() == DepthKind::coc) {
-    throw Error(ErrorCode::usage,
-                "--focus-at needs depth, and --depth-kind coc has none: leave --focus-at out");
+    throw Error(ErrorCode::usage, "--focus-at needs depth, and --depth-kind coc has none: leave --focus-at out");
   }
   if (!state_window_.contains(pixel.x, pixel.y)) {
-    throw Error(
-        ErrorCode::usage,
-        fmt::format("--focus-at {},{} lies outside the picture: x is {} to {}, y {} to {}", pixel.x, pixel.y,
-                    state_window_.x0, state_window_.x1 - 1, state_window_.y0, state_window_.y1 - 1));
+    throw Error(ErrorCode::usage,
+                fmt::format("--focus-at {},{} lies outside the picture: x is {} to {}, y {} to {}", pixel.x, pixel.y,
+                            state_window_.x0, state_window_.x1 - 1, state_window_.y0, state_window_.y1 - 1));
   }
   const exr::Pattern& pattern = sequence_.pattern;
   const int frame = pixel.frame           ? *pixel.frame
@@ -94,8 +88,8 @@ double Shot::depth_at_focus_pixel(const FocusPixel& pixel) const {
   read({frame, pattern.path(frame), {}, {}}, read_frame, false);
   const float depth = read_frame.frame.depth.at(pixel.x, pixel.y);
   if (is_background(camera_.depth_kind(), depth)) {
-    warn(fmt::format("--focus-at {},{}: frame {} shows background there: focus is at infinity", pixel.x,
-                     pixel.y, frame));
+    warn(fmt::format("--focus-at {},{}: frame {} shows background there: focus is at infinity", pixel.x, pixel.y,
+                     frame));
     return std::numeric_limits<double>::infinity();
   }
   return static_cast<double>(depth);

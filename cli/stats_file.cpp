@@ -21,8 +21,7 @@ StatsFile::StatsFile(const std::string& path) {
   output_->path = path;
   if (path != "-") output_->file.open(path);
   if (!output_->stream()) {
-    throw Error(ErrorCode::unwritable,
-                "--stats " + path + ": cannot be written: name a file in an existing folder");
+    throw Error(ErrorCode::unwritable, "--stats " + path + ": cannot be written: name a file in an existing folder");
   }
 }
 

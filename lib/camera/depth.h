@@ -12,10 +12,9 @@ enum class DepthKind {
   coc      // signed circle-of-confusion diameter in pixels, > 0 behind focus
 };
 
-std::string_view name(DepthKind kind) noexcept;     // as --depth-kind spells it
-DepthKind parse_depth_kind(std::string_view text);  // throws Error(usage) naming --depth-kind
-inline constexpr float planar_background_from =
-    1.0e9f;  // renderers write 1e10 and more where they hit nothing
+std::string_view name(DepthKind kind) noexcept;          // as --depth-kind spells it
+DepthKind parse_depth_kind(std::string_view text);       // throws Error(usage) naming --depth-kind
+inline constexpr float planar_background_from = 1.0e9f;  // renderers write 1e10 and more where they hit nothing
 
 // True where a pixel shows no surface. A planar background lies at infinity. A background of kind coc has
 // diameter 0: such an image tells no diameter at infinity (that takes a lens), and an empty pixel must not

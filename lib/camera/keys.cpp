@@ -15,8 +15,7 @@ constexpr Named<FocusInterp> interpolations[] = {
 
 template <class... Args>
 [[noreturn]] void refuse(std::string_view where, fmt::format_string<Args...> format, Args&&... args) {
-  throw Error(ErrorCode::usage,
-              fmt::format("{}: {}", where, fmt::format(format, std::forward<Args>(args)...)));
+  throw Error(ErrorCode::usage, fmt::format("{}: {}", where, fmt::format(format, std::forward<Args>(args)...)));
 }
 
 // Also refuses values so small that their inverse is not finite.
@@ -60,14 +59,13 @@ double mix(double from, double to, double share) { return from * (1 - share) + t
 double between(double a, double b, double share, FocusInterp interpolation) {
   if (a == b) return a;
   if (interpolation == FocusInterp::smooth) share = share * share * (3 - 2 * share);
-  const double value =
-      interpolation == FocusInterp::distance ? mix(a, b, share) : 1 / mix(1 / a, 1 / b, share);
+  const double value = interpolation == FocusInterp::distance ? mix(a, b, share) : 1 / mix(1 / a, 1 / b, share);
   return std::clamp(value, std::min(a, b), std::max(a, b));  // rounding may not overshoot a key
 }
 
 double value_at(const std::vector<Key>& keys, int frame, FocusInterp interpolation) {
-  const auto next = std::upper_bound(keys.begin(), keys.end(), frame,
-                                     [](int wanted, const Key& key) { return wanted < key.frame; });
+  const auto next =
+      std::upper_bound(keys.begin(), keys.end(), frame, [](int wanted, const Key& key) { return wanted < key.frame; });
   if (next == keys.begin()) return keys.front().value;
   const Key& last = *std::prev(next);
   if (next == keys.end() || last.frame == frame) return last.value;
@@ -88,13 +86,12 @@ KeyedValue::KeyedValue(double value, std::string_view where, Infinity infinity)
   check_value(value, where, infinity);
 }
 
-KeyedValue::KeyedValue(std::vector<Key> keys, std::string_view where, Infinity infinity)
-    : keys_(std::move(keys)) {
+KeyedValue::KeyedValue(std::vector<Key> keys, std::string_view where, Infinity infinity) : keys_(std::move(keys)) {
   if (keys_.empty()) refuse(where, "has no keys; give at least one FRAME:VALUE");
   for (const Key& key : keys_) check_value(key.value, where, infinity);
   std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) { return a.frame < b.frame; });
-  const auto twice = std::adjacent_find(keys_.begin(), keys_.end(),
-                                        [](const Key& a, const Key& b) { return a.frame == b.frame; });
+  const auto twice =
+      std::adjacent_find(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) { return a.frame == b.frame; });
   if (twice != keys_.end()) refuse(where, "has two keys for frame {}", twice->frame);
 }
 
@@ -120,8 +117,7 @@ std::string KeyedValue::to_string() const {
 double KeyedValue::linear_at(int frame) const { return value_at(keys_, frame, FocusInterp::distance); }
 
 double KeyedValue::focus_at(int frame, FocusInterp interpolation) const {
-  const bool infinite =
-      std::any_of(keys_.begin(), keys_.end(), [](const Key& key) { return std::isinf(key.value); });
+  const bool infinite = std::any_of(keys_.begin(), keys_.end(), [](const Key& key) { return std::isinf(key.value); });
   if (infinite && keys_.size() > 1 && interpolation == FocusInterp::distance)
     refuse("--focus-interp", "distance cannot reach a focus key at infinity; use dioptre or smooth");
   return value_at(keys_, frame, interpolation);

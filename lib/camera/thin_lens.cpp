@@ -69,8 +69,7 @@ void validate(const ThinLens& lens) {
 
 double pixels_per_mm(const ThinLens& lens, const Raster& raster) {
   if (raster.width < 1 || raster.height < 1)
-    refuse(fmt::format("the display window is {}x{} pixels: it must have at least one", raster.width,
-                       raster.height));
+    refuse(fmt::format("the display window is {}x{} pixels: it must have at least one", raster.width, raster.height));
   if (!(raster.pixel_aspect > 0 && std::isfinite(raster.pixel_aspect)))
     refuse(fmt::format("the pixel aspect ratio must be a positive number, not {}", raster.pixel_aspect));
   if (fits_width(lens, raster)) return raster.width / lens.sensor_mm;
@@ -81,13 +80,12 @@ CocFunction coc_function(const ThinLens& lens, const Raster& raster, DepthKind k
   if (kind == DepthKind::coc) return {kind, 1.0f, 0.0f};
   validate(lens);
   const double aperture_mm = lens.focal_length_mm / lens.f_number;
-  const double scale =
-      aperture_mm * image_distance_mm(lens) * pixels_per_mm(lens, raster) / mm_per_unit(lens);
+  const double scale = aperture_mm * image_distance_mm(lens) * pixels_per_mm(lens, raster) / mm_per_unit(lens);
   if (!(scale <= largest_float && scale >= std::numeric_limits<float>::min()))
-    refuse(fmt::format(
-        "--focal-length {} mm, --fstop {}, --focus {}, --sensor-width {} mm and --unit {} together give "
-        "circles of confusion beyond all measure; one of them is wrong",
-        lens.focal_length_mm, lens.f_number, lens.focus_distance, lens.sensor_mm, lens.metres_per_unit));
+    refuse(
+        fmt::format("--focal-length {} mm, --fstop {}, --focus {}, --sensor-width {} mm and --unit {} together give "
+                    "circles of confusion beyond all measure; one of them is wrong",
+                    lens.focal_length_mm, lens.f_number, lens.focus_distance, lens.sensor_mm, lens.metres_per_unit));
   return {kind, static_cast<float>(scale), inverse_focus(lens.focus_distance)};
 }
 

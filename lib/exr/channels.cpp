@@ -24,9 +24,9 @@ std::string pick_view(const ChannelNames& names, const ChannelOptions& options) 
   if (!options.view) return names.views.empty() ? "" : names.views.front();
   if (std::ranges::find(names.views, *options.view) != names.views.end()) return *options.view;
   fail(ErrorCode::usage, names,
-       names.views.empty() ? fmt::format("has no views; leave out --view {}", *options.view)
-                           : fmt::format("has no view '{}'; --view takes one of: {}", *options.view,
-                                         list_names(names.views)));
+       names.views.empty()
+           ? fmt::format("has no views; leave out --view {}", *options.view)
+           : fmt::format("has no view '{}'; --view takes one of: {}", *options.view, list_names(names.views)));
 }
 
 // Channels of the view and of no view. Where both lead to one output name, the view's own channel stays.
@@ -62,8 +62,7 @@ Strings colour_layers(const NameMap& channels) {
 template <typename Predicate>
 std::optional<std::string> only_one(const Strings& names, Predicate accept) {
   const auto first = std::ranges::find_if(names, accept);
-  if (first == names.end() || std::find_if(first + 1, names.end(), accept) != names.end())
-    return std::nullopt;
+  if (first == names.end() || std::find_if(first + 1, names.end(), accept) != names.end()) return std::nullopt;
   return *first;
 }
 
@@ -85,8 +84,7 @@ std::string requested_layer(const ChannelNames& names, const Strings& layers, co
   const auto match = only_one(layers, [&](const std::string& layer) { return ends_in(layer, wanted); });
   if (match) return *match;
   fail(ErrorCode::usage, names,
-       fmt::format("--layer {}: not exactly one layer with R, G and B; there are: {}", wanted,
-                   describe(layers)));
+       fmt::format("--layer {}: not exactly one layer with R, G and B; there are: {}", wanted, describe(layers)));
 }
 
 std::string pick_layer(const ChannelNames& names, const Strings& layers, const ChannelOptions& options) {
@@ -148,8 +146,7 @@ std::string pick_depth(const ChannelNames& names, const NameMap& channels, const
          fmt::format("no depth channel (Z); name one with --depth-channel: {}", list_names(names.channels)));
   }
   fail(ErrorCode::usage, names,
-       fmt::format("several channels may be depth; choose one with --depth-channel: {}",
-                   list_names(candidates)));
+       fmt::format("several channels may be depth; choose one with --depth-channel: {}", list_names(candidates)));
 }
 
 }  // namespace
@@ -173,8 +170,7 @@ Selection select_channels(const ChannelNames& names, const ChannelOptions& optio
     colour_names.push_back(channel->first);
   }
   for (const auto& [name, file_name] : channels) {
-    if (std::ranges::find(colour_names, name) == colour_names.end())
-      selection.extra.push_back({file_name, name});
+    if (std::ranges::find(colour_names, name) == colour_names.end()) selection.extra.push_back({file_name, name});
   }
   return selection;
 }

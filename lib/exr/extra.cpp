@@ -5,8 +5,7 @@
 namespace pullfocus::exr {
 namespace {
 
-void copy_rows(const ExtraChannel& from, const Window& from_window, ExtraChannel& to,
-               const Window& to_window) {
+void copy_rows(const ExtraChannel& from, const Window& from_window, ExtraChannel& to, const Window& to_window) {
   const Window common = intersect(from_window, to_window);
   if (common.empty()) return;
   const std::size_t bytes = sample_bytes(from.type);

@@ -48,8 +48,8 @@ void check_size(const FileInfo& info) {
   for (const Window& window : {info.display_window, info.data_window}) {
     if (window.empty() || window.pixels() > max_image_pixels ||
         std::max(window.width(), window.height()) > max_image_side) {
-      fail(info.path, fmt::format("says it is {} x {} pixels: damaged, or larger than supported",
-                                  window.width(), window.height()));
+      fail(info.path, fmt::format("says it is {} x {} pixels: damaged, or larger than supported", window.width(),
+                                  window.height()));
     }
   }
 }
@@ -68,11 +68,9 @@ void read_channels(FileInfo& info) {
   for (auto channel = list.begin(); channel != list.end(); ++channel) {
     const Imf::Channel& description = channel.channel();
     if (description.xSampling != 1 || description.ySampling != 1) {
-      fail(
-          info.path,
-          fmt::format(
-              "channel {} is subsampled {}x{} (luminance-chroma?), which is not supported; convert it to RGB",
-              channel.name(), description.xSampling, description.ySampling));
+      fail(info.path,
+           fmt::format("channel {} is subsampled {}x{} (luminance-chroma?), which is not supported; convert it to RGB",
+                       channel.name(), description.xSampling, description.ySampling));
     }
     info.channels.push_back({channel.name(), description.type});
   }
@@ -81,13 +79,9 @@ void read_channels(FileInfo& info) {
 
 }  // namespace
 
-Window to_window(const Imath::Box2i& box) noexcept {
-  return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
-}
+Window to_window(const Imath::Box2i& box) noexcept { return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}; }
 
-Imath::Box2i to_box(const Window& window) noexcept {
-  return {{window.x0, window.y0}, {window.x1 - 1, window.y1 - 1}};
-}
+Imath::Box2i to_box(const Window& window) noexcept { return {{window.x0, window.y0}, {window.x1 - 1, window.y1 - 1}}; }
 
 ChannelNames FileInfo::channel_names() const {
   ChannelNames names{path, {}, views};

@@ -27,20 +27,17 @@ OutputNames::OutputNames(std::string_view text, const Pattern& input, const std:
     : pattern_(Pattern::parse(resolve(text, input))) {
   const bool own_name = !names_folder(text);
   if (own_name && pattern_.inline_range()) {
-    throw Error(ErrorCode::usage,
-                fmt::format("{}: an output takes no frame range in its name; use --frames", text));
+    throw Error(ErrorCode::usage, fmt::format("{}: an output takes no frame range in its name; use --frames", text));
   }
   if (pattern_.is_single() && frames.size() > 1) {
-    throw Error(ErrorCode::usage,
-                fmt::format("{}: {} frames cannot go into one file; write the frame number as ####", text,
-                            frames.size()));
+    throw Error(ErrorCode::usage, fmt::format("{}: {} frames cannot go into one file; write the frame number as ####",
+                                              text, frames.size()));
   }
   std::error_code error;
   for (const int frame : frames) {
     if (!fs::equivalent(pattern_.path(frame), input.path(frame), error)) continue;
-    throw Error(ErrorCode::usage,
-                fmt::format("{}: the output would replace its own input; name another folder or file",
-                            pattern_.path(frame)));
+    throw Error(ErrorCode::usage, fmt::format("{}: the output would replace its own input; name another folder or file",
+                                              pattern_.path(frame)));
   }
 }
 

@@ -26,8 +26,7 @@ struct Placeholder {
 };
 
 [[noreturn]] void fail(std::string_view text, std::string_view reason) {
-  throw Error(ErrorCode::usage,
-              fmt::format("{}: {}; write frame numbers as ####, @@@@ or %04d", text, reason));
+  throw Error(ErrorCode::usage, fmt::format("{}: {}; write frame numbers as ####, @@@@ or %04d", text, reason));
 }
 
 std::optional<Placeholder> find_marks(std::string_view name, std::size_t from) {
@@ -58,8 +57,8 @@ std::optional<Placeholder> find_printf(std::string_view text, std::string_view n
 std::optional<Placeholder> find_placeholder(std::string_view text, std::string_view name) {
   const auto marks = find_marks(name, 0);
   const auto printf = find_printf(text, name, 0);
-  const bool twice = (marks && printf) || (marks && find_marks(name, marks->end)) ||
-                     (printf && find_printf(text, name, printf->end));
+  const bool twice =
+      (marks && printf) || (marks && find_marks(name, marks->end)) || (printf && find_printf(text, name, printf->end));
   if (twice) fail(text, "more than one placeholder for the frame number");
   const auto found = marks ? marks : printf;
   if (found && found->digits > max_digits) fail(text, "too many digits");
@@ -146,9 +145,8 @@ std::vector<int> Pattern::discover() const {
     const fs::file_status status = fs::status(text_, error);
     if (!fs::exists(status)) throw Error(ErrorCode::unreadable, fmt::format("{}: no such file", text_));
     if (fs::is_directory(status)) {
-      throw Error(
-          ErrorCode::unreadable,
-          fmt::format("{}: is a folder; name its files by a pattern such as {}/name.####.exr", text_, text_));
+      throw Error(ErrorCode::unreadable,
+                  fmt::format("{}: is a folder; name its files by a pattern such as {}/name.####.exr", text_, text_));
     }
     return {single_frame()};
   }
@@ -158,8 +156,7 @@ std::vector<int> Pattern::discover() const {
     if (frame) frames.push_back(*frame);
   }
   if (error) {
-    throw Error(ErrorCode::unreadable,
-                fmt::format("{}: cannot list the folder: {}", folder(), error.message()));
+    throw Error(ErrorCode::unreadable, fmt::format("{}: cannot list the folder: {}", folder(), error.message()));
   }
   std::sort(frames.begin(), frames.end());
   return frames;

@@ -17,24 +17,21 @@ namespace {
 void read_rows(Imf::InputPart& part, const std::vector<ChannelTarget>& targets, const Imath::Box2i& box) {
   Imf::FrameBuffer buffer;
   for (const ChannelTarget& target : targets) {
-    buffer.insert(target.channel,
-                  Imf::Slice::Make(target.type, target.base, box, target.x_stride, target.y_stride));
+    buffer.insert(target.channel, Imf::Slice::Make(target.type, target.base, box, target.x_stride, target.y_stride));
   }
   part.setFrameBuffer(buffer);
   part.readPixels(box.min.y, box.max.y);
 }
 
 template <typename Sample>
-void copy_samples(const std::byte* from, std::size_t from_stride, std::byte* to, std::size_t to_stride,
-                  int count) {
+void copy_samples(const std::byte* from, std::size_t from_stride, std::byte* to, std::size_t to_stride, int count) {
   for (int i = 0; i < count; ++i, from += from_stride, to += to_stride) std::memcpy(to, from, sizeof(Sample));
 }
 
 void copy_columns(const ChannelTarget& from, const ChannelTarget& to, const Window& common) {
   const auto copy = to.type == Imf::HALF ? copy_samples<std::uint16_t> : copy_samples<std::uint32_t>;
   for (std::size_t y = 0; y < static_cast<std::size_t>(common.height()); ++y) {
-    copy(from.base + y * from.y_stride, from.x_stride, to.base + y * to.y_stride, to.x_stride,
-         common.width());
+    copy(from.base + y * from.y_stride, from.x_stride, to.base + y * to.y_stride, to.x_stride, common.width());
   }
 }
 
@@ -70,8 +67,8 @@ void read_cropped(Imf::InputPart& part, const std::vector<ChannelTarget>& target
 
 }  // namespace
 
-void read_pixels(Imf::MultiPartInputFile& file, const std::vector<ChannelTarget>& targets,
-                 const Window& data_window, const Window& window) {
+void read_pixels(Imf::MultiPartInputFile& file, const std::vector<ChannelTarget>& targets, const Window& data_window,
+                 const Window& window) {
   Imf::InputPart part(file, 0);
   if (window.x0 == data_window.x0 && window.x1 == data_window.x1) {
     read_rows(part, targets, to_box(window));

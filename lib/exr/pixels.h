@@ -23,7 +23,7 @@ struct ChannelTarget {
 
 // Reads `window`, which must lie inside the file's `data_window`. Straight into the targets if it is as wide
 // as the data; else through scratch memory. Throws what OpenEXR throws.
-void read_pixels(Imf::MultiPartInputFile& file, const std::vector<ChannelTarget>& targets,
-                 const Window& data_window, const Window& window);
+void read_pixels(Imf::MultiPartInputFile& file, const std::vector<ChannelTarget>& targets, const Window& data_window,
+                 const Window& window);
 
 }  // namespace pullfocus::exr

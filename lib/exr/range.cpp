@@ -15,8 +15,7 @@ namespace {
 constexpr std::int64_t max_frames = 10'000'000;
 
 [[noreturn]] void fail(std::string_view text, const std::string& reason) {
-  throw Error(ErrorCode::usage,
-              fmt::format("frame range '{}': {} (write it like 1-10,20-40x2)", text, reason));
+  throw Error(ErrorCode::usage, fmt::format("frame range '{}': {} (write it like 1-10,20-40x2)", text, reason));
 }
 
 struct Term {
@@ -103,8 +102,7 @@ void append(const Term& term, std::vector<int>& frames) {
 // Number of leading frames from `begin` on with one constant step.
 std::size_t run_length(const std::vector<int>& frames, std::size_t begin, std::int64_t step) {
   std::size_t count = 1;
-  while (begin + count < frames.size() &&
-         std::int64_t{frames[begin + count]} - frames[begin + count - 1] == step) {
+  while (begin + count < frames.size() && std::int64_t{frames[begin + count]} - frames[begin + count - 1] == step) {
     ++count;
   }
   return count;

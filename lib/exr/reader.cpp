@@ -61,8 +61,8 @@ void add_colour_targets(const Selection& selection, const Window& common, Colour
   }
 }
 
-void add_extra_targets(const FileInfo& info, const Selection& selection, const Window& common,
-                       ExtraChannels& extra, std::vector<ChannelTarget>& targets) {
+void add_extra_targets(const FileInfo& info, const Selection& selection, const Window& common, ExtraChannels& extra,
+                       std::vector<ChannelTarget>& targets) {
   extra.reset(common, selection.extra.size());
   for (std::size_t i = 0; i < selection.extra.size(); ++i) {
     const NamedChannel& name = selection.extra[i];
@@ -78,9 +78,8 @@ void add_extra_targets(const FileInfo& info, const Selection& selection, const W
 
 void add_depth_target(const Selection& selection, const Window& common, Plane& depth,
                       std::vector<ChannelTarget>& targets) {
-  targets.push_back({selection.depth, Imf::FLOAT,
-                     reinterpret_cast<std::byte*>(&depth.at(common.x0, common.y0)), sizeof(float),
-                     sizeof(float) * static_cast<std::size_t>(depth.window().width())});
+  targets.push_back({selection.depth, Imf::FLOAT, reinterpret_cast<std::byte*>(&depth.at(common.x0, common.y0)),
+                     sizeof(float), sizeof(float) * static_cast<std::size_t>(depth.window().width())});
 }
 
 template <typename Stored, typename Convert>
@@ -102,8 +101,7 @@ void convert_depth(const ExtraChannel& stored, const Window& common, Plane& dept
   if (stored.type == Imf::HALF) {
     convert_plane<std::uint16_t>(samples, common, depth, imath_half_to_float);
   } else if (stored.type == Imf::UINT) {
-    convert_plane<std::uint32_t>(samples, common, depth,
-                                 [](auto value) { return static_cast<float>(value); });
+    convert_plane<std::uint32_t>(samples, common, depth, [](auto value) { return static_cast<float>(value); });
   } else {
     convert_plane<float>(samples, common, depth, [](float value) { return value; });
   }
@@ -155,8 +153,8 @@ std::size_t FrameReader::read(const Selection& selection, const Window& state_wi
   return info_.data_window.pixels() - common.pixels();
 }
 
-std::size_t read_frame(const std::string& path, const ChannelOptions& options, const Window& state_window,
-                       Frame& frame, ExtraChannels* extra) {
+std::size_t read_frame(const std::string& path, const ChannelOptions& options, const Window& state_window, Frame& frame,
+                       ExtraChannels* extra) {
   FrameReader reader(path);
   return reader.read(select_channels(reader.info().channel_names(), options), state_window, frame, extra);
 }

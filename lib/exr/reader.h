@@ -34,8 +34,7 @@ class FrameReader {
   // none). Returns the number of the file's pixels outside the state window, which are ignored.
   // Throws Error(unreadable): a selected channel is missing, or the pixels are incomplete or damaged; `frame`
   // and `extra` then hold anything.
-  std::size_t read(const Selection& selection, const Window& state_window, Frame& frame,
-                   ExtraChannels* extra);
+  std::size_t read(const Selection& selection, const Window& state_window, Frame& frame, ExtraChannels* extra);
 
  private:
   FileInfo info_;
@@ -43,7 +42,7 @@ class FrameReader {
 };
 
 // Opens the file, selects its channels and reads it; returns what read() returns.
-std::size_t read_frame(const std::string& path, const ChannelOptions& options, const Window& state_window,
-                       Frame& frame, ExtraChannels* extra);
+std::size_t read_frame(const std::string& path, const ChannelOptions& options, const Window& state_window, Frame& frame,
+                       ExtraChannels* extra);
 
 }  // namespace pullfocus::exr

@@ -42,19 +42,16 @@ Scanned scan_file(const Pattern& pattern, int frame) {
 
 Scan scan_files(const Pattern& pattern, const std::vector<int>& frames) {
   std::vector<Scanned> scanned(frames.size());
-  tbb::parallel_for(std::size_t{0}, frames.size(),
-                    [&](std::size_t i) { scanned[i] = scan_file(pattern, frames[i]); });
+  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) { scanned[i] = scan_file(pattern, frames[i]); });
   Scan scan;
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    scan.emplace_hint(scan.end(), frames[i], std::move(scanned[i]));
+  for (std::size_t i = 0; i < frames.size(); ++i) scan.emplace_hint(scan.end(), frames[i], std::move(scanned[i]));
   return scan;
 }
 
 std::vector<int> find_gaps(const std::vector<int>& sorted_frames) {
   std::vector<int> gaps;
   for (std::size_t i = 1; i < sorted_frames.size(); ++i) {
-    for (std::int64_t missing = std::int64_t{sorted_frames[i - 1]} + 1; missing < sorted_frames[i];
-         ++missing) {
+    for (std::int64_t missing = std::int64_t{sorted_frames[i - 1]} + 1; missing < sorted_frames[i]; ++missing) {
       if (gaps.size() == max_gaps) return gaps;
       gaps.push_back(static_cast<int>(missing));
     }
@@ -82,9 +79,8 @@ std::string compare_geometry(const Pattern& pattern, int reference_frame, Scan& 
     const bool same =
         scanned.display_window == reference.display_window && scanned.pixel_aspect == reference.pixel_aspect;
     if (same || !scanned.usable()) continue;
-    scanned.problem =
-        fmt::format("frame {}: {}: {} differs from {} of frame {}; a shot must have one display window",
-                    frame, pattern.path(frame), describe(scanned), describe(reference), reference_frame);
+    scanned.problem = fmt::format("frame {}: {}: {} differs from {} of frame {}; a shot must have one display window",
+                                  frame, pattern.path(frame), describe(scanned), describe(reference), reference_frame);
     if (first_difference.empty()) first_difference = scanned.problem;
   }
   return first_difference;
@@ -95,8 +91,7 @@ SequenceFrame make_frame(const Pattern& pattern, const Scan& scan, int frame) {
   const auto found = scan.find(frame);
   if (found == scan.end()) {
     result.problem = fmt::format("frame {}: {}: no such file", frame, result.path);
-    if (pattern.is_single())
-      result.problem += fmt::format(" for this frame (it is frame {})", pattern.single_frame());
+    if (pattern.is_single()) result.problem += fmt::format(" for this frame (it is frame {})", pattern.single_frame());
   } else if (found->second.usable()) {
     result.data_window = found->second.data_window;
   } else {
@@ -105,8 +100,7 @@ SequenceFrame make_frame(const Pattern& pattern, const Scan& scan, int frame) {
   return result;
 }
 
-std::vector<SequenceFrame> make_frames(const Pattern& pattern, const Scan& scan,
-                                       const std::vector<int>& numbers) {
+std::vector<SequenceFrame> make_frames(const Pattern& pattern, const Scan& scan, const std::vector<int>& numbers) {
   std::vector<SequenceFrame> frames;
   frames.reserve(numbers.size());
   for (const int number : numbers) frames.push_back(make_frame(pattern, scan, number));
@@ -114,14 +108,12 @@ std::vector<SequenceFrame> make_frames(const Pattern& pattern, const Scan& scan,
 }
 
 void require_good(const std::vector<SequenceFrame>& frames) {
-  const auto bad =
-      std::ranges::find_if(frames, [](const SequenceFrame& frame) { return !frame.problem.empty(); });
+  const auto bad = std::ranges::find_if(frames, [](const SequenceFrame& frame) { return !frame.problem.empty(); });
   if (bad != frames.end()) throw Error(ErrorCode::unreadable, bad->problem);
 }
 
 const SequenceFrame& first_usable(const std::vector<SequenceFrame>& frames) {
-  const auto good =
-      std::ranges::find_if(frames, [](const SequenceFrame& frame) { return frame.problem.empty(); });
+  const auto good = std::ranges::find_if(frames, [](const SequenceFrame& frame) { return frame.problem.empty(); });
   if (good == frames.end()) throw Error(ErrorCode::unreadable, frames.front().problem);
   return *good;
 }

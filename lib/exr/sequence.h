@@ -21,10 +21,10 @@ struct SequenceFrame {
 struct Sequence {
   Pattern pattern;
   std::vector<SequenceFrame> frames;  // to be worked on, in the order asked for
-  std::vector<int> gaps;  // without a range: numbers missing between first and last, a million at most
-  FileInfo first;         // of the first usable one among `frames`
-  Window display_window;  // shared by all files
-  Window data_union;      // of all usable files that the pattern finds, worked on or not
+  std::vector<int> gaps;              // without a range: numbers missing between first and last, a million at most
+  FileInfo first;                     // of the first usable one among `frames`
+  Window display_window;              // shared by all files
+  Window data_union;                  // of all usable files that the pattern finds, worked on or not
 };
 
 // What a frame that is missing, unreadable or of another geometry means to open_sequence().
@@ -39,7 +39,6 @@ enum class BadFrames {
 // every chunk of a shot gets the same state window; those that cannot be read are left out. Throws
 // Error(usage) for a malformed range; Error(unreadable) if nothing is found or usable, and for the first bad
 // frame unless kept, naming frame and path.
-Sequence open_sequence(const Pattern& pattern, std::string_view range,
-                       BadFrames bad_frames = BadFrames::fail);
+Sequence open_sequence(const Pattern& pattern, std::string_view range, BadFrames bad_frames = BadFrames::fail);
 
 }  // namespace pullfocus::exr

@@ -13,10 +13,9 @@ namespace {
 constexpr int max_margin = 1 << 20;
 
 [[noreturn]] void fail(std::string_view text) {
-  throw Error(
-      ErrorCode::usage,
-      fmt::format("--overscan {}: neither 'auto' nor four pixel counts left,top,right,bottom of 0 to {}",
-                  text, max_margin));
+  throw Error(ErrorCode::usage,
+              fmt::format("--overscan {}: neither 'auto' nor four pixel counts left,top,right,bottom of 0 to {}", text,
+                          max_margin));
 }
 
 }  // namespace
@@ -38,16 +37,14 @@ Overscan parse_overscan(std::string_view text) {
 
 Window state_window(const Window& display_window, const Window& data_union, const Overscan& overscan) {
   const Window& display = display_window;
-  const Window window = overscan.automatic
-                            ? unite(display, data_union)
-                            : Window{display.x0 - overscan.left, display.y0 - overscan.top,
-                                     display.x1 + overscan.right, display.y1 + overscan.bottom};
+  const Window window = overscan.automatic ? unite(display, data_union)
+                                           : Window{display.x0 - overscan.left, display.y0 - overscan.top,
+                                                    display.x1 + overscan.right, display.y1 + overscan.bottom};
   if (window.pixels() > max_image_pixels) {
     throw Error(
         ErrorCode::usage,
-        fmt::format(
-            "the window to work in would be {} x {} pixels, too large; limit it with --overscan L,T,R,B",
-            window.width(), window.height()));
+        fmt::format("the window to work in would be {} x {} pixels, too large; limit it with --overscan L,T,R,B",
+                    window.width(), window.height()));
   }
   return window;
 }

@@ -20,8 +20,8 @@ constexpr int attempts = 16;  // at a name that nobody has
 std::string random_name(const std::string& final_path) {
   std::random_device random;
   fs::path path(final_path);
-  const std::string name = fmt::format("{}.{:08x}.temp{}", path.stem().string(), random() & 0xffffffffu,
-                                       path.extension().string());
+  const std::string name =
+      fmt::format("{}.{:08x}.temp{}", path.stem().string(), random() & 0xffffffffu, path.extension().string());
   return path.replace_filename(name).string();
 }
 
@@ -31,13 +31,11 @@ std::string random_name(const std::string& final_path) {
 
 }  // namespace
 
-TempFile::TempFile(const std::string& final_path)
-    : Imf::OStream(final_path.c_str()), final_path_(final_path) {
+TempFile::TempFile(const std::string& final_path) : Imf::OStream(final_path.c_str()), final_path_(final_path) {
   std::error_code error;
   const fs::file_status status = fs::status(final_path, error);
   // Renaming would replace even a device.
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    refuse(final_path, "it exists and is not a regular file");
+  if (fs::exists(status) && !fs::is_regular_file(status)) refuse(final_path, "it exists and is not a regular file");
   for (int i = 0; i < attempts && !file_; ++i) {
     temp_path_ = random_name(final_path);
     file_ = std::fopen(temp_path_.c_str(), "wbx");

@@ -19,8 +19,7 @@ void write_pixels(TempFile& stream, Imf::Header header, const std::vector<Output
   Imf::FrameBuffer buffer;
   for (const OutputChannel& channel : channels) {
     header.channels().insert(channel.name, Imf::Channel(channel.type));
-    buffer.insert(channel.name,
-                  Imf::Slice::Make(channel.type, channel.base, box, channel.x_stride, channel.y_stride));
+    buffer.insert(channel.name, Imf::Slice::Make(channel.type, channel.base, box, channel.x_stride, channel.y_stride));
   }
   Imf::OutputFile file(stream, header);
   file.setFrameBuffer(buffer);
@@ -51,8 +50,7 @@ std::vector<OutputChannel> extra_channels(const ExtraChannels& extra) {
   return channels;
 }
 
-void write_exr(const std::string& path, const Imf::Header& header,
-               const std::vector<OutputChannel>& channels) {
+void write_exr(const std::string& path, const Imf::Header& header, const std::vector<OutputChannel>& channels) {
   TempFile stream(path);
   try {
     write_pixels(stream, header, channels);

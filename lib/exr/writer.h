@@ -34,7 +34,6 @@ std::vector<OutputChannel> extra_channels(const ExtraChannels& extra);
 // grows under `name.XXXXXXXX.temp.exr` in the same folder and is renamed when complete, so `path` is the old
 // file or the whole new one, never anything between. Compression uses as many threads as OpenEXR was set to
 // by the program. Throws Error(unwritable) with the system's reason; nothing is left behind then.
-void write_exr(const std::string& path, const Imf::Header& header,
-               const std::vector<OutputChannel>& channels);
+void write_exr(const std::string& path, const Imf::Header& header, const std::vector<OutputChannel>& channels);
 
 }  // namespace pullfocus::exr

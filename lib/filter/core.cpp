@@ -17,10 +17,9 @@ std::shared_ptr<const KernelTable> table_or_new(std::shared_ptr<const KernelTabl
 const Window& checked(const Window& window) {
   constexpr int most = 1 << 24;
   if (window.empty() || window.width() > most || window.height() > most || window.pixels() > (1u << 30)) {
-    throw Error(ErrorCode::usage,
-                fmt::format("a state window of {} x {} pixels cannot be filtered: it must have 1 "
-                            "to 2^30 pixels",
-                            window.width(), window.height()));
+    throw Error(ErrorCode::usage, fmt::format("a state window of {} x {} pixels cannot be filtered: it must have 1 "
+                                              "to 2^30 pixels",
+                                              window.width(), window.height()));
   }
   return window;
 }
@@ -42,17 +41,16 @@ void FilterCore::check(const Frame& frame) const {
   const Window& w = frame.window();
   throw Error(
       ErrorCode::usage,
-      fmt::format(
-          "a frame over x {} .. {}, y {} .. {} cannot follow in a filter made for x {} .. {}, y {} .. {}",
-          w.x0, w.x1 - 1, w.y0, w.y1 - 1, window.x0, window.x1 - 1, window.y0, window.y1 - 1));
+      fmt::format("a frame over x {} .. {}, y {} .. {} cannot follow in a filter made for x {} .. {}, y {} .. {}", w.x0,
+                  w.x1 - 1, w.y0, w.y1 - 1, window.x0, window.x1 - 1, window.y0, window.y1 - 1));
 }
 
 Window FilterCore::reached(const FrameFindings& findings) const noexcept {
   if (findings.content.empty()) return {window.x0, window.y0, window.x0 + 1, window.y0 + 1};
   const Window& c = findings.content;
   const Window placed{c.x0 + window.x0, c.y0 + window.y0, c.x1 + window.x0, c.y1 + window.y0};
-  const Kernel& largest = kernels->kernel(findings.content_index);
-  return intersect(window, grow(placed, largest.radius_x, largest.radius_y));
+  const int index = findings.content_index;
+  return intersect(window, grow(placed, scatter.reach_x(index), scatter.reach_y(index)));
 }
 
 void FilterCore::report(const FrameFindings& findings, Stats& stats) noexcept {

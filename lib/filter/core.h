@@ -24,8 +24,7 @@ class Stopwatch {
 
 struct FilterCore {
   // `table` must have been built from options.kernel, or be null. Throws Error(usage).
-  FilterCore(const Window& state_window, const FilterOptions& filter_options,
-             std::shared_ptr<const KernelTable> table);
+  FilterCore(const Window& state_window, const FilterOptions& filter_options, std::shared_ptr<const KernelTable> table);
 
   // Throws Error(usage) if the frame has another window.
   void check(const Frame& frame) const;

@@ -46,8 +46,7 @@ Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTabl
       const float c = diameter(frame, coc, sx, sy);
       const Kernel& kernel = kernels.kernel(kernels.coc().index(c));
       if (std::abs(sx - x) > kernel.radius_x || std::abs(sy - y) > kernel.radius_y) continue;
-      const std::int64_t weight =
-          weight_at(kernel, sx - w.x0, sy - w.y0, x - w.x0, y - w.y0, w.width(), w.height());
+      const std::int64_t weight = weight_at(kernel, sx - w.x0, sy - w.y0, x - w.x0, y - w.y0, w.width(), w.height());
       if (weight == 0) continue;
       const double share = static_cast<double>(weight) / static_cast<double>(kWeightUnit);
       total += share;

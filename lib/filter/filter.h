@@ -25,7 +25,7 @@ class Filter {
   // Throws Error(usage) for a frame of another window.
   virtual const Stats& filter(const Frame& frame, const CocFunction& coc, const StopRequest& stop = {}) = 0;
 
-  // The picture after the last call, over the state window; zero outside result_window().
+  // The picture after the last call, over the state window; its colour is zero outside result_window().
   virtual const ColourImage& result() const noexcept = 0;
 
   // Where the picture can differ from zero: content grown by its largest kernel, cut to the state window.

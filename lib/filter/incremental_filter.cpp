@@ -71,8 +71,7 @@ void IncrementalFilter::widen_lanes() {
   lanes_ = kAlphaLanes;
 }
 
-const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFunction& coc,
-                                       const StopRequest& stop) {
+const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFunction& coc, const StopRequest& stop) {
   core_.check(frame_as_given);
   const Stopwatch whole;
   stats_ = {};
@@ -99,8 +98,7 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
         update(selected, pending);
       }
     } else {
-      for (const auto& slice :
-           cut_slices(selected, pending, core_.options.importance, core_.options.slice_edges)) {
+      for (const auto& slice : cut_slices(selected, pending, core_.options.importance, core_.options.slice_edges)) {
         if (stop()) break;
         update(slice, pending);
       }
@@ -138,8 +136,8 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Pend
   if (selected.empty()) return;
   const EdgeCount edges = count_edges(selected, pending);
   const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
-  core_.scatter.run(selected, {&state_, &pending.frame, pending_.data(), &core_.sanitiser}, lanes_,
-                    core_.threads, [&](int y, int x0, int x1, const Accumulator* values) {
+  core_.scatter.run(selected, {&state_, &pending.frame, pending_.data(), &core_.sanitiser}, lanes_, core_.threads,
+                    [&](int y, int x0, int x1, const Accumulator* values) {
                       Accumulator* sums = &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes];
                       const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
                       for (std::size_t i = 0; i < n; ++i) sums[i] += values[i];
@@ -187,7 +185,10 @@ void IncrementalFilter::show_uncommitted(const Frame& frame) {
       for (int x = w.x0; x < w.x1; ++x) {
         if (index[x - w.x0] != kNeverCommitted) continue;
         const Pixel<type> pixel = core_.sanitiser(load_pixel<type>(frame.colour.pixel(x, y)));
-        for (int c = 0; c < 4; ++c) result_.set(x, y, c, sample_value(pixel.rgba[c]));
+        for (int c = 0; c < 4; ++c) {
+          const float value = sample_value(pixel.rgba[c]);
+          result_.set(x, y, c, result_.type() == SampleType::half ? std::clamp(value, -65504.f, 65504.f) : value);
+        }
       }
     });
   });

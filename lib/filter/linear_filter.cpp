@@ -14,10 +14,8 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
   const Stopwatch whole;
   stats_ = {};
   const SampleType type = frame.colour.type(), result_type = core_.options.output_type.value_or(type);
-  if (state_.colour.window() != core_.window || state_.colour.type() != type)
-    state_.reset(core_.window, type);
-  if (result_.window() != core_.window || result_.type() != result_type)
-    result_.reset(core_.window, result_type);
+  if (state_.colour.window() != core_.window || state_.colour.type() != type) state_.reset(core_.window, type);
+  if (result_.window() != core_.window || result_.type() != result_type) result_.reset(core_.window, result_type);
 
   core_.arena.execute([&] {
     const Stopwatch detect;
@@ -31,10 +29,9 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
 
     const Stopwatch scatter;
     const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
-    core_.scatter.run(tiles_, {&state_}, lanes, core_.threads,
-                      [&](int y, int x0, int x1, const Accumulator* values) {
-                        resolve_span(values, lanes, x0, x1, y, state_.colour, result_);
-                      });
+    core_.scatter.run(tiles_, {&state_}, lanes, core_.threads, [&](int y, int x0, int x1, const Accumulator* values) {
+      resolve_span(values, lanes, x0, x1, y, state_.colour, result_);
+    });
     stats_.scatter_ms = scatter.ms();
   });
   stats_.mode = ScatterMode::rebuild;

@@ -24,10 +24,8 @@ const char* name(ScatterMode mode) noexcept {
 }
 
 std::int64_t Budget::pixels(std::int64_t changed) const noexcept {
-  if (kind == Kind::count)
-    return amount < static_cast<double>(changed) ? static_cast<std::int64_t>(amount) : changed;
-  return amount >= 100 ? changed
-                       : static_cast<std::int64_t>(std::ceil(static_cast<double>(changed) * amount / 100));
+  if (kind == Kind::count) return amount < static_cast<double>(changed) ? static_cast<std::int64_t>(amount) : changed;
+  return amount >= 100 ? changed : static_cast<std::int64_t>(std::ceil(static_cast<double>(changed) * amount / 100));
 }
 
 Budget Budget::parse(std::string_view text) {
@@ -41,10 +39,9 @@ Budget Budget::parse(std::string_view text) {
   const bool in_range =
       percent ? budget.amount > 0 && budget.amount <= 100 : budget.amount >= 0 && budget.amount < 1e15;
   if (parsed.ec != std::errc{} || parsed.ptr != end || !whole || !in_range) {
-    throw Error(ErrorCode::usage,
-                fmt::format("--budget '{}' is neither a percentage above 0 and up to 100, such as "
-                            "15%, nor a number of pixels, such as 200000",
-                            text));
+    throw Error(ErrorCode::usage, fmt::format("--budget '{}' is neither a percentage above 0 and up to 100, such as "
+                                              "15%, nor a number of pixels, such as 200000",
+                                              text));
   }
   return budget;
 }
@@ -57,8 +54,7 @@ void validate(const FilterOptions& options) {
   const Budget& budget = options.budget;
   const bool percent = budget.kind == Budget::Kind::percent;
   if (!(percent ? budget.amount > 0 && budget.amount <= 100 : budget.amount >= 0)) {
-    throw Error(ErrorCode::usage,
-                "--budget must be a percentage above 0 and up to 100, or a number of pixels");
+    throw Error(ErrorCode::usage, "--budget must be a percentage above 0 and up to 100, or a number of pixels");
   }
   if (options.slice_edges < 1) throw Error(ErrorCode::usage, "slice_edges must be at least 1");
 }

@@ -33,8 +33,8 @@ void measure_coc(const Frame& frame, const CocFunction& coc, const CocTable& tab
 
 }  // namespace
 
-Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const Frame& frame,
-               const CocFunction& coc, const Frame* next, const CocFunction& next_coc) {
+Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const Frame& frame, const CocFunction& coc,
+               const Frame* next, const CocFunction& next_coc) {
   Plan plan;
   plan.window = frame.window();
   plan.table_size = kernels.coc().size();
@@ -51,8 +51,7 @@ Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const F
 
   const double colour = static_cast<double>(frame.colour.pixel_bytes());
   const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
-  plan.state_bytes_per_pixel =
-      lanes * 8. + colour + 2 + 2 + 1. / 4;  // sums, colour, index, pending index, masks
+  plan.state_bytes_per_pixel = lanes * 8. + colour + 2 + 2 + 1. / 4;  // sums, colour, index, pending index, masks
   plan.frame_bytes_per_pixel =
       colour + 4 + 4. * static_cast<double>(sample_bytes(options.output_type.value_or(frame.colour.type())));
 

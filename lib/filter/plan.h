@@ -29,7 +29,7 @@ struct Plan {
 };
 
 // Looks at one frame, and for the prediction at the one after it (null: none). Throws as a filter would.
-Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const Frame& frame,
-               const CocFunction& coc, const Frame* next, const CocFunction& next_coc);
+Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const Frame& frame, const CocFunction& coc,
+               const Frame* next, const CocFunction& next_coc);
 
 }  // namespace pullfocus

@@ -46,8 +46,7 @@ class Sanitiser {
   explicit Sanitiser(float max_radiance) noexcept {
     half_max_ = max_radiance >= 65504.f ? std::uint16_t{0x7bff} : imath_float_to_half(max_radiance);
     if (finite_half_to_float(half_max_) > max_radiance) --half_max_;
-    float_max_ =
-        std::bit_cast<std::uint32_t>(max_radiance > 65504.f ? max_radiance : finite_half_to_float(half_max_));
+    float_max_ = std::bit_cast<std::uint32_t>(max_radiance > 65504.f ? max_radiance : finite_half_to_float(half_max_));
   }
 
   // Works on magnitudes as integers, which order as the floats do; beyond infinity lie the NaNs.
@@ -56,9 +55,12 @@ class Sanitiser {
     using Bits = std::remove_reference_t<decltype(pixel.rgba[0])>;
     constexpr Bits sign = static_cast<Bits>(Bits{1} << (8 * sizeof(Bits) - 1));
     constexpr Bits infinity = type == SampleType::half ? Bits{0x7c00} : static_cast<Bits>(0x7f800000u);
-    const Bits largest = type == SampleType::half ? half_max_ : static_cast<Bits>(float_max_);
+    const Bits one = type == SampleType::half ? Bits{0x3c00} : static_cast<Bits>(0x3f800000u);
+    const Bits limit = type == SampleType::half ? half_max_ : static_cast<Bits>(float_max_);
     bool not_finite = false, clamped = false;
-    for (Bits& sample : pixel.rgba) {
+    for (int c = 0; c < 4; ++c) {
+      Bits& sample = pixel.rgba[c];
+      const Bits largest = c == 3 && limit < one ? one : limit;
       const Bits magnitude = sample & static_cast<Bits>(~sign);
       if (magnitude <= largest) continue;
       if (magnitude >= infinity) {

@@ -47,9 +47,7 @@ struct TileMask {
 };
 
 // Mask of the first n pixels of a tile row, 0 <= n <= 64.
-inline std::uint64_t first_pixels(int n) noexcept {
-  return n >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1;
-}
+inline std::uint64_t first_pixels(int n) noexcept { return n >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1; }
 
 // Calls visit(x) for every set bit, ascending.
 template <typename Visit>

@@ -30,8 +30,6 @@ inline Window unite(const Window& a, const Window& b) noexcept {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-inline Window grow(const Window& w, int dx, int dy) noexcept {
-  return {w.x0 - dx, w.y0 - dy, w.x1 + dx, w.y1 + dy};
-}
+inline Window grow(const Window& w, int dx, int dy) noexcept { return {w.x0 - dx, w.y0 - dy, w.x1 + dx, w.y1 + dy}; }
 
 }  // namespace pullfocus

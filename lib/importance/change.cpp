@@ -47,8 +47,7 @@ class Detector {
   void run(int tile, TileRow& row) const {
     TileWork work{tile, 0, {}};
     for (int i = 0; i < grid_.tile_height(tile); ++i) {
-      work.mask.rows[i] =
-          segment(grid_.x(tile), grid_.y(tile) + i, grid_.tile_width(tile), work.max_index, row);
+      work.mask.rows[i] = segment(grid_.x(tile), grid_.y(tile) + i, grid_.tile_width(tile), work.max_index, row);
     }
     if (!work.mask.any()) return;
     row.pixels += work.mask.count();
@@ -68,8 +67,7 @@ class Detector {
       for (int i = 0; i < n; ++i) changed |= std::uint64_t{index[i] != committed[i]} << i;
     }
     // What was committed is sane, so equal bits are equal sane colours.
-    if (std::memcmp(ingest_.colours(x, y), old, static_cast<std::size_t>(n) * sizeof *old) != 0 ||
-        changed != 0) {
+    if (std::memcmp(ingest_.colours(x, y), old, static_cast<std::size_t>(n) * sizeof *old) != 0 || changed != 0) {
       Pixel<type> pixels[kTileWidth];
       ingest_.sanitised(x, y, n, pixels, row.findings);
       for (int i = 0; i < n; ++i) changed |= std::uint64_t{!(pixels[i] == old[i])} << i;
@@ -93,9 +91,8 @@ class Detector {
 
 }  // namespace
 
-Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table,
-                     const Sanitiser& sanitiser, const SourceState& state,
-                     std::vector<std::int16_t>& pending) {
+Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
+                     const SourceState& state, std::vector<std::int16_t>& pending) {
   const TileGrid grid = grid_of(state.colour.window());
   std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
   dispatch(frame.colour.type(), [&]<SampleType type>() {
@@ -117,9 +114,8 @@ Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable&
   return changes;
 }
 
-FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table,
-                         const Sanitiser& sanitiser, SourceState& state, std::vector<TileWork>& tiles,
-                         bool& opaque) {
+FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
+                         SourceState& state, std::vector<TileWork>& tiles, bool& opaque) {
   const TileGrid grid = grid_of(frame.window());
   tiles.resize(static_cast<std::size_t>(grid.count()));
   std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));

@@ -23,15 +23,13 @@ struct Changes {
 // Compares `frame` with `state` (same window and sample type), tile by tile. `pending` (one index per pixel,
 // row by row) receives the new indices of the tile rows that hold changed pixels, and keeps its values
 // elsewhere. Threads: runs in the calling task arena; the result does not depend on their number.
-Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table,
-                     const Sanitiser& sanitiser, const SourceState& state,
-                     std::vector<std::int16_t>& pending);
+Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
+                     const SourceState& state, std::vector<std::int16_t>& pending);
 
 // Takes over the whole frame into `state`, without looking at what it held. Fills `max_index` with the
 // largest |index| of every tile.
-FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table,
-                         const Sanitiser& sanitiser, SourceState& state, std::vector<TileWork>& tiles,
-                         bool& opaque);
+FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
+                         SourceState& state, std::vector<TileWork>& tiles, bool& opaque);
 
 // Takes over the pixels of `tiles`.
 void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<std::int16_t>& pending,

@@ -12,7 +12,7 @@ struct ImportanceOptions {
 
 // Buckets are logarithmic in h, eight an octave, so that HDR changes and faint ones spread alike: bucket 1
 // holds h < 2^-12, the last one h >= 2^12. Bucket 0 holds unchanged pixels only and is never returned.
-inline constexpr int kBuckets = 24 * 8 + 2;
+inline constexpr int kBuckets = 24 * 8 + 3;
 
 int bucket_of(double h) noexcept;
 

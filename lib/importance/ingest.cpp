@@ -32,8 +32,7 @@ void diameters(const CocFunction& coc, const float* depth, int n, float* out) no
 }  // namespace
 
 template <SampleType type>
-void SegmentIngest<type>::indices(int x, int y, int n, std::int16_t* out,
-                                  FrameFindings& findings) const noexcept {
+void SegmentIngest<type>::indices(int x, int y, int n, std::int16_t* out, FrameFindings& findings) const noexcept {
   const float* depth = frame_.depth.row(window_.y0 + y) + x;
   float c[kTileWidth];
   diameters(coc_, depth, n, c);
@@ -59,7 +58,7 @@ void SegmentIngest<type>::count_suspects(int x, int y, int n, FrameFindings& fin
   const float* depth = frame_.depth.row(window_.y0 + y) + x;
   const Pixel<type>* pixels = colours(x, y);
   for (int i = 0; i < n; ++i) {
-    findings.depth += is_suspect(coc_.kind, depth[i], sample_value(pixels[i].rgba[3]) > 0.f);
+    findings.depth += is_suspect(coc_.kind, depth[i], sample_value(sanitiser_(pixels[i]).rgba[3]) > 0.f);
   }
 }
 

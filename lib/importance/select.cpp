@@ -17,17 +17,15 @@ class PixelChange {
       : pending_(pending), options_(options), window_(pending.frame.window()) {}
 
   std::uint32_t position(int x, int y) const noexcept {
-    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(window_.width()) +
-           static_cast<std::uint32_t>(x);
+    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(window_.width()) + static_cast<std::uint32_t>(x);
   }
 
   int bucket(int x, int y) const noexcept {
     const std::uint32_t at = position(x, y);
     const int was = pending_.state.index[at], is = pending_.index[at];
-    if (was == kNeverCommitted) return kBuckets - 1;
+    if (was == kNeverCommitted) return kBuckets;  // before all others
     const CocTable& coc = pending_.kernels.coc();
-    const double h_coc =
-        std::fabs(std::copysign(coc.diameter(is), is) - std::copysign(coc.diameter(was), was));
+    const double h_coc = std::fabs(std::copysign(coc.diameter(is), is) - std::copysign(coc.diameter(was), was));
     return bucket_of(options_.w_coc * h_coc + options_.w_rgb * colour_distance(x, y));
   }
 
@@ -39,8 +37,7 @@ class PixelChange {
     const Pixel<type> was = load(pending_.state.colour), is = pending_.sanitiser(load(pending_.frame.colour));
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
-      const double d =
-          static_cast<double>(sample_value(is.rgba[c])) - static_cast<double>(sample_value(was.rgba[c]));
+      const double d = static_cast<double>(sample_value(is.rgba[c])) - static_cast<double>(sample_value(was.rgba[c]));
       sum += d * d;
     }
     return std::sqrt(sum);
@@ -59,15 +56,14 @@ TileGrid grid_of(const Pending& pending) noexcept {
 template <typename Visit>
 void for_each_tile_pixel(const TileGrid& grid, const TileWork& work, Visit&& visit) {
   for (int i = 0; i < kTileHeight; ++i) {
-    for_each_pixel(work.mask.rows[i],
-                   [&](int p) { visit(i, p, grid.x(work.tile) + p, grid.y(work.tile) + i); });
+    for_each_pixel(work.mask.rows[i], [&](int p) { visit(i, p, grid.x(work.tile) + p, grid.y(work.tile) + i); });
   }
 }
 
 // Bucket of every masked pixel, tile after tile.
 std::vector<std::vector<std::uint8_t>> buckets_of(const std::vector<TileWork>& tiles, const Pending& pending,
                                                   const ImportanceOptions& options) {
-  static_assert(kBuckets <= 256);
+  static_assert(kBuckets < 256);
   std::vector<std::vector<std::uint8_t>> buckets(tiles.size());
   const TileGrid grid = grid_of(pending);
   dispatch(pending.frame.colour.type(), [&]<SampleType type>() {
@@ -100,11 +96,11 @@ std::vector<TileWork> select_most_important(const Changes& changes, const Pendin
   const TileGrid grid = grid_of(pending);
   const auto buckets = buckets_of(changes.tiles, pending, options);
 
-  std::vector<std::int64_t> histogram(kBuckets);
+  std::vector<std::int64_t> histogram(kBuckets + 1);
   for (const auto& tile : buckets) {
     for (const std::uint8_t b : tile) ++histogram[b];
   }
-  int last = kBuckets - 1;
+  int last = kBuckets;
   std::int64_t left = most;
   while (last > 0 && histogram[static_cast<std::size_t>(last)] <= left) {
     left -= histogram[static_cast<std::size_t>(last--)];
@@ -169,8 +165,7 @@ std::vector<std::vector<TileWork>> cut_slices(const std::vector<TileWork>& tiles
     order[t] = t;
     rank[t] = *std::max_element(buckets[t].begin(), buckets[t].end());
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return rank[a] > rank[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank[a] > rank[b]; });
 
   std::vector<std::vector<TileWork>> slices;
   std::int64_t room = 0;
@@ -178,8 +173,7 @@ std::vector<std::vector<TileWork>> cut_slices(const std::vector<TileWork>& tiles
     for (int i = 0; i < kTileHeight; ++i) {
       if (tiles[t].mask.rows[i] == 0) continue;
       std::int64_t edges = 0;
-      const auto row =
-          static_cast<std::size_t>(grid.y(tiles[t].tile) + i) * static_cast<std::size_t>(grid.width);
+      const auto row = static_cast<std::size_t>(grid.y(tiles[t].tile) + i) * static_cast<std::size_t>(grid.width);
       for_each_pixel(tiles[t].mask.rows[i], [&](int p) {
         edges += edges_of_pixel(pending, row + static_cast<std::size_t>(grid.x(tiles[t].tile) + p)).written;
       });

@@ -1,7 +1,5 @@
 #include "resolve/resolve.h"
 
-#include <Imath/half.h>
-
 #include <algorithm>
 
 #include "image/sanitise.h"
@@ -11,13 +9,12 @@ namespace pullfocus {
 namespace {
 
 void store(std::uint16_t* out, float value) noexcept {
-  *out = imath_float_to_half(std::clamp(value, -65504.f, 65504.f));
+  *out = finite_float_to_half(std::clamp(value, -65504.f, 65504.f));
 }
 void store(std::uint32_t* out, float value) noexcept { *out = std::bit_cast<std::uint32_t>(value); }
 
 template <SampleType type, int lanes>
-void divide(const Accumulator* values, int n, int x, int y, const ColourImage& own,
-            Pixel<type>* out) noexcept {
+void divide(const Accumulator* values, int n, int x, int y, const ColourImage& own, Pixel<type>* out) noexcept {
   for (int i = 0; i < n; ++i, values += lanes) {
     const auto weight = static_cast<std::int64_t>(values[kWeightLane]);
     if (weight == 0) [[unlikely]] {

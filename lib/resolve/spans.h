@@ -20,8 +20,7 @@ class DirtySpans {
 
   void mark(int y, int x0, int x1) noexcept {
     std::uint64_t* row = bits_.data() + static_cast<std::size_t>(y) * words_;
-    for (int cell = x0 / kCell; cell <= (x1 - 1) / kCell; ++cell)
-      row[cell / 64] |= std::uint64_t{1} << (cell % 64);
+    for (int cell = x0 / kCell; cell <= (x1 - 1) / kCell; ++cell) row[cell / 64] |= std::uint64_t{1} << (cell % 64);
   }
 
   // Calls visit(x0, x1) for every stretch of dirty columns of row y, and cleans the row.

@@ -91,8 +91,7 @@ void Band::finish_row(int y, Take&& take) {
     if (x0 < x1) {
       Accumulator* values = image_row + static_cast<std::ptrdiff_t>(x0) * lanes;
       take(x0, x1, static_cast<const Accumulator*>(values));
-      std::fill_n(values, static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(lanes),
-                  Accumulator{0});
+      std::fill_n(values, static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(lanes), Accumulator{0});
     }
     cell = end;
   }

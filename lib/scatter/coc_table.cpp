@@ -23,8 +23,10 @@ CocTable::CocTable(double coc_step, double max_coc_px) {
   }
   const double largest = round_to_sixteenth(max_coc_px);
   max_diameter_ = static_cast<float>(largest);
-  for (double d = 0; d < largest; d += round_to_sixteenth(std::max(0.5, coc_step * d)))
+  // A last step of a sixteenth would have no look-up cell of its own.
+  for (double d = 0; d < largest - 1. / 16; d += round_to_sixteenth(std::max(0.5, coc_step * d))) {
     diameters_.push_back(d);
+  }
   diameters_.push_back(largest);
 
   const auto cells = static_cast<std::size_t>(largest * kCellsPerPixel) + 1;
@@ -32,8 +34,7 @@ CocTable::CocTable(double coc_step, double max_coc_px) {
   std::size_t index = 0;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const double centre = (static_cast<double>(cell) + 0.5) / kCellsPerPixel;
-    while (index + 1 < diameters_.size() && centre - diameters_[index] > diameters_[index + 1] - centre)
-      ++index;
+    while (index + 1 < diameters_.size() && centre - diameters_[index] > diameters_[index + 1] - centre) ++index;
     cells_[cell] = static_cast<std::int16_t>(index);
   }
 }

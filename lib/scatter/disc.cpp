@@ -10,15 +10,15 @@ namespace {
 
 constexpr int kSub = 16;  // subsamples per pixel and axis, at the centres of a 16 x 16 grid
 constexpr double kMixBelow = 2;
-constexpr double kGoodMoment = 0.004;  // of both axes together
+constexpr double kGoodMoment = 0.006;  // of both axes together
 
-constexpr double kHardRimFrom = 64;
+constexpr double kTuneBelow = 64;
 
 int levels_for(double diameter) {
   if (diameter < 12) return 16;
   if (diameter < 16) return 8;
-  if (diameter < 24) return 4;
-  return diameter < kHardRimFrom ? 2 : 1;
+  if (diameter < 20) return 3;
+  return diameter < 32 ? 2 : 1;
 }
 
 struct Disc {
@@ -55,8 +55,7 @@ Disc sample_disc(double diameter, double aspect, int levels) {
       }
     }
     for (int dx = -disc.rx; dx <= disc.rx; ++dx) {
-      const int share =
-          (covered[static_cast<std::size_t>(std::abs(dx))] * levels + kSub * kSub / 2) / (kSub * kSub);
+      const int share = (covered[static_cast<std::size_t>(std::abs(dx))] * levels + kSub * kSub / 2) / (kSub * kSub);
       for (const int row : {disc.ry - dy, disc.ry + dy}) {
         disc.shares[static_cast<std::size_t>(row * columns + dx + disc.rx)] = share;
       }
@@ -86,11 +85,11 @@ double moment_error(const Disc& disc, double diameter, double aspect) {
 Disc best_disc(double diameter, double aspect) {
   const int levels = levels_for(diameter);
   Disc best = sample_disc(diameter, aspect, levels);
-  if (diameter >= kHardRimFrom) return best;
+  if (diameter >= kTuneBelow) return best;
   double least = moment_error(best, diameter, aspect);
   // From the nominal diameter outwards, to the first adjustment that is good enough.
-  for (int step = 1; step <= 30 && least > kGoodMoment; ++step) {
-    const double adjust = (step % 2 ? 1 : -1) * ((step + 1) / 2) * 0.02;
+  for (int step = 1; step <= 60 && least > kGoodMoment; ++step) {
+    const double adjust = (step % 2 ? 1 : -1) * ((step + 1) / 2) * 0.01;
     Disc disc = sample_disc(diameter + adjust, aspect, levels);
     const double error = moment_error(disc, diameter, aspect);
     if (error >= least) continue;

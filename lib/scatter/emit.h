@@ -72,28 +72,33 @@ void collect(const Sources& sources, int x, int y, std::uint64_t mask, EmissionR
   });
 }
 
-// Changes of contribution of n neighbouring sources at every step of their kernel: step after step, n * lanes
-// values.
-template <int lanes, bool with_minus>
-void step_values(const Kernel& kernel, const Emission<lanes>* sources, int n, Accumulator* out) noexcept {
+// Up to `width` neighbouring columns from that of `first` on, of which those in `members` (bit i: sources[i]) share a
+// kernel. Writes their change of contribution at every step of the kernel: step after step, width * lanes values, zero
+// where no member is.
+template <int lanes, int width, bool with_minus>
+void step_values(const Kernel& kernel, const Emission<lanes>* sources, std::uint32_t members, int first_x,
+                 Accumulator* out) noexcept {
   Accumulator at_level[256][lanes];
   std::fill_n(at_level[0], lanes, Accumulator{0});
-  const std::size_t level_count = kernel.levels.size(), stride = static_cast<std::size_t>(n * lanes);
-  for (int i = 0; i < n; ++i) {
+  const std::size_t level_count = kernel.levels.size();
+  if (std::popcount(members) < width) {
+    std::fill_n(out, kernel.steps.size() * static_cast<std::size_t>(width * lanes), Accumulator{0});
+  }
+  for (; members != 0; members &= members - 1) {
+    const Emission<lanes>& source = sources[std::countr_zero(members)];
     for (std::size_t k = 1; k < level_count; ++k) {
       const auto weight = static_cast<double>(kernel.levels[k]);
       for (int c = 0; c < lanes; ++c) {
-        // Products are exact to 2^-53 and rounded by the default mode: one value on every target.
-        auto value = static_cast<Accumulator>(std::llrint(sources[i].plus[c] * weight));
-        if constexpr (with_minus)
-          value -= static_cast<Accumulator>(std::llrint(sources[i].minus[c] * weight));
+        // Products are rounded to doubles and then to integers by the default mode: one value on every target.
+        auto value = static_cast<Accumulator>(std::llrint(source.plus[c] * weight));
+        if constexpr (with_minus) value -= static_cast<Accumulator>(std::llrint(source.minus[c] * weight));
         at_level[k][c] = value;
       }
     }
-    Accumulator* values = out + i * lanes;
+    Accumulator* values = out + (source.x - first_x) * lanes;
     for (const KernelStep& step : kernel.steps) {
-      for (int c = 0; c < lanes; ++c) values[c] = at_level[step.to][c] - at_level[step.from][c];
-      values += stride;
+      for (int c = 0; c < lanes; ++c) values[c] = at_level[step.high][c] - at_level[step.low][c];
+      values += width * lanes;
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace pullfocus {
 
@@ -29,11 +30,12 @@ void trim(const Shares& shares, Kernel& kernel) {
   }
 }
 
-std::uint16_t step_index(Kernel& kernel, std::uint8_t from, std::uint8_t to) {
-  const auto same = [&](const KernelStep& s) { return s.from == from && s.to == to; };
+KernelEdge make_edge(Kernel& kernel, int dx, std::uint8_t from, std::uint8_t to) {
+  const KernelStep step{std::min(from, to), std::max(from, to)};
+  const auto same = [&](const KernelStep& s) { return s.low == step.low && s.high == step.high; };
   auto found = std::find_if(kernel.steps.begin(), kernel.steps.end(), same);
-  if (found == kernel.steps.end()) found = kernel.steps.insert(found, {from, to});
-  return static_cast<std::uint16_t>(found - kernel.steps.begin());
+  if (found == kernel.steps.end()) found = kernel.steps.insert(found, step);
+  return {static_cast<std::int16_t>(dx), static_cast<std::uint8_t>(found - kernel.steps.begin()), from < to};
 }
 
 }  // namespace
@@ -43,16 +45,17 @@ Kernel kernel_from_shares(int rx, int ry, const std::vector<std::int32_t>& value
   Kernel kernel;
   trim(shares, kernel);
 
-  std::vector<std::int32_t> distinct(values);
-  distinct.push_back(0);
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  assert(distinct.front() == 0 && distinct.size() > 1 && distinct.size() <= 256);
-
-  std::vector<std::uint8_t> level_of_share(static_cast<std::size_t>(distinct.back()) + 1);
-  for (std::size_t level = 0; level < distinct.size(); ++level) {
-    level_of_share[static_cast<std::size_t>(distinct[level])] = static_cast<std::uint8_t>(level);
+  const std::int32_t largest = *std::max_element(values.begin(), values.end());
+  std::vector<std::uint8_t> level_of_share(static_cast<std::size_t>(largest) + 1);
+  for (const std::int32_t share : values) level_of_share[static_cast<std::size_t>(share)] = 1;
+  level_of_share[0] = 1;
+  std::vector<std::int32_t> distinct;
+  for (std::int32_t share = 0; share <= largest; ++share) {
+    if (level_of_share[static_cast<std::size_t>(share)] == 0) continue;
+    level_of_share[static_cast<std::size_t>(share)] = static_cast<std::uint8_t>(distinct.size());
+    distinct.push_back(share);
   }
+  assert(distinct.size() > 1 && distinct.size() <= 256);
 
   const auto sum = std::accumulate(values.begin(), values.end(), std::int64_t{0});
   const std::int64_t weight_of_share = (kWeightUnit + sum / 2) / sum;
@@ -64,12 +67,12 @@ Kernel kernel_from_shares(int rx, int ry, const std::vector<std::int32_t>& value
     for (int dx = -kernel.radius_x; dx <= kernel.radius_x + 1; ++dx) {
       const std::uint8_t next = level_of_share[static_cast<std::size_t>(shares.at(dx, dy))];
       if (next == level) continue;
-      kernel.edges.push_back({static_cast<std::int16_t>(dx), step_index(kernel, level, next)});
+      kernel.edges.push_back(make_edge(kernel, dx, level, next));
       level = next;
     }
     kernel.row_begin.push_back(static_cast<std::uint32_t>(kernel.edges.size()));
   }
-  assert(kernel.steps.size() <= kMaxKernelSteps);
+  if (kernel.steps.size() > kMaxKernelSteps) throw std::logic_error("a kernel has too many kinds of edges");
   return kernel;
 }
 
@@ -77,7 +80,7 @@ std::int64_t Kernel::weight(int dx, int dy) const noexcept {
   if (std::abs(dy) > radius_y) return 0;
   std::size_t level = 0;
   for (const KernelEdge& edge : row(dy)) {
-    if (edge.dx <= dx) level = steps[edge.step].to;
+    if (edge.dx <= dx) level = level_behind(edge);
   }
   return levels[level];
 }

@@ -1,10 +1,10 @@
 // Kernels as stacks of run shapes in the difference domain.
 //
 // A kernel spreads one source pixel over the pixels around it with non-negative integer weights that sum to
-// one unit (2^40) within 1e-7. Its weights take few distinct values, the *levels*, and along a row the level
-// changes at few places, the *edges*. A source writes, per edge, only the change of its contribution; one
-// prefix sum per row turns changes into contributions. So a source costs O(radius) writes, not O(radius^2)
-// (Fearing 1996, section 4.2, reformulated).
+// one unit (2^40) within 1e-7 (up to 220000 pixels, which is all that square pixels allow). Its weights take few
+// distinct values, the *levels*, and along a row the level changes at few places, the *edges*. A source writes, per
+// edge, only the change of its contribution; one prefix sum per row turns changes into contributions. So a source costs
+// O(radius) writes, not O(radius^2) (Fearing 1996, section 4.2, reformulated).
 //
 // The contribution of colour I at level k is round(I * levels[k]), a function of the source's own state
 // alone: writing the same edges with the other sign takes it back to the last bit, in any order (Fearing,
@@ -21,26 +21,30 @@ namespace pullfocus {
 inline constexpr std::int64_t kWeightUnit = std::int64_t{1} << 40;
 
 struct KernelStep {
-  std::uint8_t from, to;  // levels before and behind an edge
+  std::uint8_t low, high;  // levels on the two sides of an edge
 };
 
 struct KernelEdge {
-  std::int16_t dx;     // first column, relative to the source, that has the new level
-  std::uint16_t step;  // index into Kernel::steps
+  std::int16_t dx;    // first column, relative to the source, that has the new level
+  std::uint8_t step;  // index into Kernel::steps
+  bool rising;        // from low to high; else from high to low
 };
 
-inline constexpr std::size_t kMaxKernelSteps = 64;
+inline constexpr std::size_t kMaxKernelSteps = 48;
 
 struct Kernel {
-  int radius_x = 0, radius_y = 0;  // columns -radius_x..radius_x and rows -radius_y..radius_y hold all weight
+  int radius_x = 0, radius_y = 0;        // columns -radius_x..radius_x and rows -radius_y..radius_y hold all weight
   std::vector<std::int64_t> levels;      // ascending weights; levels[0] = 0 is outside
-  std::vector<KernelStep> steps;         // distinct level changes, at most kMaxKernelSteps
+  std::vector<KernelStep> steps;         // distinct pairs of levels, at most kMaxKernelSteps
   std::vector<std::uint32_t> row_begin;  // edges of row dy are [row_begin[dy + radius_y], row_begin[.. + 1])
   std::vector<KernelEdge> edges;
 
   std::span<const KernelEdge> row(int dy) const noexcept {
     const auto r = static_cast<std::size_t>(dy + radius_y);
     return {edges.data() + row_begin[r], row_begin[r + 1] - row_begin[r]};
+  }
+  std::uint8_t level_behind(const KernelEdge& edge) const noexcept {
+    return edge.rising ? steps[edge.step].high : steps[edge.step].low;
   }
   int edge_count() const noexcept { return static_cast<int>(edges.size()); }
 

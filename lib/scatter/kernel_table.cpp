@@ -27,7 +27,7 @@ double largest_overlap(const std::vector<Kernel>& kernels) {
       std::int64_t* row = &largest[static_cast<std::size_t>((dy + ry) * columns + rx)];
       const auto edges = kernel.row(dy);
       for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
-        const std::int64_t weight = kernel.levels[kernel.steps[edges[e].step].to];
+        const std::int64_t weight = kernel.levels[kernel.level_behind(edges[e])];
         for (int dx = edges[e].dx; dx < edges[e + 1].dx; ++dx) row[dx] = std::max(row[dx], weight);
       }
     }
@@ -39,8 +39,7 @@ double largest_overlap(const std::vector<Kernel>& kernels) {
 
 }  // namespace
 
-KernelTable::KernelTable(const KernelOptions& options)
-    : options_(options), coc_(options.coc_step, options.max_coc_px) {
+KernelTable::KernelTable(const KernelOptions& options) : options_(options), coc_(options.coc_step, options.max_coc_px) {
   if (!(options.pixel_aspect > 0.1 && options.pixel_aspect < 10)) {
     throw Error(ErrorCode::usage, fmt::format("pixel aspect ratio {} is not between 0.1 and 10: correct the "
                                               "file's pixelAspectRatio attribute",
@@ -56,10 +55,9 @@ KernelTable::KernelTable(const KernelOptions& options)
   overlap_bound_ = largest_overlap(kernels_);
   const double limit = std::ldexp(1.0, 23) / overlap_bound_ - 1;
   if (static_cast<double>(options.max_radiance) > limit) {
-    throw Error(ErrorCode::usage,
-                fmt::format("--max-radiance {} could overflow the 64-bit sums with kernels up "
-                            "to {} px: use at most {:.0f}, or a smaller --max-coc",
-                            options.max_radiance, options.max_coc_px, std::floor(limit)));
+    throw Error(ErrorCode::usage, fmt::format("--max-radiance {} could overflow the 64-bit sums with kernels up "
+                                              "to {} px: use at most {:.0f}, or a smaller --max-coc",
+                                              options.max_radiance, options.max_coc_px, std::floor(limit)));
   }
 }
 

@@ -10,7 +10,7 @@ namespace pullfocus {
 
 namespace {
 
-constexpr int kChunk = 8;  // neighbouring sources written together
+constexpr int kWindow = 8;  // columns written together
 
 }  // namespace
 
@@ -23,8 +23,7 @@ struct Scatter::Mirrored {
   int band_row(int y) const noexcept { return first + (y - y0) * direction; }
 };
 
-Scatter::Scatter(const KernelTable& kernels, int width, int height)
-    : kernels_(kernels), grid_{width, height} {
+Scatter::Scatter(const KernelTable& kernels, int width, int height) : kernels_(kernels), grid_{width, height} {
   int reach_x = 0, reach_y = 0;
   for (int i = 0; i < kernels.coc().size(); ++i) {
     reach_x = std::max(reach_x, kernels.kernel(i).radius_x);
@@ -36,54 +35,67 @@ Scatter::Scatter(const KernelTable& kernels, int width, int height)
 
 namespace {
 
-template <int values>
-inline void add(Accumulator* out, const Accumulator* in) noexcept {
-  for (int i = 0; i < values; ++i) out[i] += in[i];
-}
-
-// Writes the edges of n sources, the first at image column x of row y, into the band rows of one mirror
-// image.
-template <int lanes, int n, typename Image>
-void write_edges(const Kernel& kernel, int x, int y, const Accumulator* steps, const Image& image,
-                 Band& band) {
+// Writes the edges of `width` neighbouring sources of row y, the first at image column x, into the band rows of one
+// mirror image.
+template <int lanes, int width, typename Image>
+void write_edges(const Kernel& kernel, int x, int y, const Accumulator* steps, const Image& image, Band& band) {
+  constexpr int n = width * lanes;
   const int from = std::max(y - kernel.radius_y, image.y0), to = std::min(y + kernel.radius_y + 1, image.y1);
   for (int row = from; row < to; ++row) {
-    Accumulator* const out = band.row(image.band_row(row)) + static_cast<std::ptrdiff_t>(x) * lanes;
+    Accumulator* const at_source = band.row(image.band_row(row)) + static_cast<std::ptrdiff_t>(x) * lanes;
     for (const KernelEdge& edge : kernel.row(row - y)) {
-      add<n * lanes>(out + static_cast<std::ptrdiff_t>(edge.dx) * lanes, steps + edge.step * (n * lanes));
+      Accumulator* const out = at_source + static_cast<std::ptrdiff_t>(edge.dx) * lanes;
+      const Accumulator* const in = steps + edge.step * n;
+      if (edge.rising) {
+        for (int i = 0; i < n; ++i) out[i] += in[i];
+      } else {
+        for (int i = 0; i < n; ++i) out[i] -= in[i];
+      }
     }
   }
 }
 
-template <int lanes, int n, bool with_minus, typename Image>
-void write_chunk(const Kernel& kernel, const Emission<lanes>* sources, int y, const Image& image,
-                 Band& band) {
-  alignas(64) Accumulator steps[kMaxKernelSteps * n * lanes];
-  step_values<lanes, with_minus>(kernel, sources, n, steps);
-  write_edges<lanes, n>(kernel, sources->x, y, steps, image, band);
+template <int lanes, int width, bool with_minus, typename Image>
+void write_group(const Kernel& kernel, const Emission<lanes>* sources, std::uint32_t members, int x, int y,
+                 const Image& image, Band& band) {
+  alignas(64) Accumulator steps[kMaxKernelSteps * width * lanes];
+  step_values<lanes, width, with_minus>(kernel, sources, members, x, steps);
+  write_edges<lanes, width>(kernel, x, y, steps, image, band);
 }
 
-// Splits a list of sources into chunks that are neighbours and share a kernel.
+// Sources are written in groups of equal kernel within windows of kWindow columns. Columns of a group that hold another
+// kernel are written as zeros: that is cheaper than splitting the group.
 template <int lanes, bool with_minus, typename Image>
-void write_sources(const KernelTable& kernels, const Emission<lanes>* sources, int count, int y,
-                   const Image& image, Band& band) {
+void write_sources(const KernelTable& kernels, const Emission<lanes>* sources, int count, int y, const Image& image,
+                   Band& band) {
   for (int i = 0; i < count;) {
-    const Emission<lanes>* first = sources + i;
-    int n = 1;
-    while (n < kChunk && i + n < count && first[n].x == first->x + n && first[n].index == first->index) ++n;
-    const Kernel& kernel = kernels.kernel(first->index);
-    if (n == kChunk) {
-      write_chunk<lanes, kChunk, with_minus>(kernel, first, y, image, band);
-    } else if (n >= 4) {
-      write_chunk<lanes, 4, with_minus>(kernel, first, y, image, band);
-      n = 4;
-    } else if (n >= 2) {
-      write_chunk<lanes, 2, with_minus>(kernel, first, y, image, band);
-      n = 2;
-    } else {
-      write_chunk<lanes, 1, with_minus>(kernel, first, y, image, band);
+    const Emission<lanes>* const window = sources + i;
+    int in_window = 1;
+    while (i + in_window < count && window[in_window].x < window->x + kWindow) ++in_window;
+    std::uint32_t pending = (1u << in_window) - 1;
+    while (pending != 0) {
+      const int first = std::countr_zero(pending);
+      std::uint32_t members = 0;
+      for (int m = first; m < in_window; ++m) {
+        members |= std::uint32_t{window[m].index == window[first].index} << m;
+      }
+      members &= pending;
+      const int x = window[first].x, width = window[std::bit_width(members) - 1].x - x + 1;
+      if (width > 2 * std::popcount(members)) members &= ~members + 1;  // too sparse: one at a time
+      pending &= ~members;
+
+      const Kernel& kernel = kernels.kernel(window[first].index);
+      if (std::popcount(members) == 1) {
+        write_group<lanes, 1, with_minus>(kernel, window, members, x, y, image, band);
+      } else if (width <= 2) {
+        write_group<lanes, 2, with_minus>(kernel, window, members, x, y, image, band);
+      } else if (width <= 4) {
+        write_group<lanes, 4, with_minus>(kernel, window, members, x, y, image, band);
+      } else {
+        write_group<lanes, kWindow, with_minus>(kernel, window, members, x, y, image, band);
+      }
     }
-    i += n;
+    i += in_window;
   }
 }
 
@@ -113,8 +125,7 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
       const int ya = std::max(image.y0, y - ry), yb = std::min(image.y1, y + tile_height + ry);
       if (ya >= yb) continue;
       const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
-      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x - rx,
-                x + grid_.tile_width(work.tile) + rx + 1);
+      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x - rx, x + grid_.tile_width(work.tile) + rx + 1);
       for (int i = 0; i < tile_height; ++i) {
         if (work.mask.rows[i] == 0 || y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
         dispatch(sources.state->colour.type(),
@@ -130,8 +141,7 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
   }
 }
 
-void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads,
-                  const Take& take) {
+void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads, const Take& take) {
   if (tiles.empty()) return;
   int largest = 0, y_first = grid_.height, y_last = 0;
   for (const TileWork& work : tiles) {
@@ -143,12 +153,13 @@ void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int l
   // Mirrored rows land no farther from the border than the reach beyond it, so these bounds hold them too.
   y_first = std::max(y_first, 0);
   y_last = std::min(y_last, grid_.height);
-  const BandLayout layout{grid_.width, grid_.height, reach_x_[static_cast<std::size_t>(largest)] + 1, lanes};
+  // Beyond the reach lies room for the last edge, and for the zeros that fill up a group of sources.
+  const BandLayout layout{grid_.width, grid_.height, reach_x_[static_cast<std::size_t>(largest)] + kWindow, lanes};
 
   // Tall bands visit each source seldom, low ones stay in cache and feed all threads.
   const int span = y_last - y_first;
   const int share = (span + 4 * threads - 1) / (4 * threads);
-  const int band_rows = std::clamp(share, 16, 64);
+  const int band_rows = std::clamp(share, 16, 128);
   const int band_count = (span + band_rows - 1) / band_rows;
   tbb::parallel_for(0, band_count, [&](int b) {
     Band& band = bands_.local();

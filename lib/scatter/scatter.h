@@ -42,15 +42,18 @@ class Scatter {
   // on it.
   void run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads, const Take& take);
 
+  // The largest radii of all kernels up to |index|.
+  int reach_x(int index) const noexcept { return reach_x_[static_cast<std::size_t>(index)]; }
+  int reach_y(int index) const noexcept { return reach_y_[static_cast<std::size_t>(index)]; }
+
  private:
   struct Mirrored;
   template <int lanes>
-  void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources,
-            const BandLayout& layout) const;
+  void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout) const;
 
   const KernelTable& kernels_;
   const TileGrid grid_;
-  std::vector<int> reach_x_, reach_y_;  // by |index|: the largest radii of indices up to it
+  std::vector<int> reach_x_, reach_y_;  // by |index|
   tbb::enumerable_thread_specific<Band> bands_;
 };
 

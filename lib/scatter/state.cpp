@@ -11,8 +11,7 @@ namespace pullfocus {
 namespace {
 
 const std::int16_t* row_of(const SourceState& state, int y) noexcept {
-  return state.index.data() +
-         static_cast<std::size_t>(y) * static_cast<std::size_t>(state.colour.window().width());
+  return state.index.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(state.colour.window().width());
 }
 
 }  // namespace
@@ -42,8 +41,7 @@ std::int64_t committed_edges(const SourceState& state, const KernelTable& kernel
   tbb::parallel_for(0, height, [&](int y) {
     const std::int16_t* index = row_of(state, y);
     std::int64_t sum = 0;
-    for (int x = 0; x < width; ++x)
-      sum += index[x] == kNeverCommitted ? 0 : kernels.kernel(index[x]).edge_count();
+    for (int x = 0; x < width; ++x) sum += index[x] == kNeverCommitted ? 0 : kernels.kernel(index[x]).edge_count();
     rows[static_cast<std::size_t>(y)] = sum;
   });
   return std::accumulate(rows.begin(), rows.end(), std::int64_t{0});

@@ -23,8 +23,7 @@ glm::vec3 drawer_colour(glm::vec2 at) {
   const glm::vec2 off = glm::abs(in);
   if (off.x > 0.45f || off.y > 0.44f) return metal * 0.28f;
   const float from_handle = std::abs(in.y + 0.12f);
-  if (off.x < 0.17f && from_handle < 0.055f)
-    return glm::vec3(0.9f, 0.88f, 0.82f) * (1.1f - 12.0f * from_handle);
+  if (off.x < 0.17f && from_handle < 0.055f) return glm::vec3(0.9f, 0.88f, 0.82f) * (1.1f - 12.0f * from_handle);
   if (off.x < 0.13f && std::abs(in.y - 0.17f) < 0.10f) {
     const bool writing = fraction(in.y * 22.0f) < 0.35f && off.x < 0.10f;
     return writing ? glm::vec3(0.10f, 0.10f, 0.16f) : glm::vec3(0.72f, 0.68f, 0.52f);
@@ -57,8 +56,7 @@ std::optional<Surface> ball(glm::vec2 p) {
   const float square = glm::dot(q, q);
   if (square >= 1) return std::nullopt;
   const glm::vec3 normal(q, std::sqrt(1 - square));
-  const float turn =
-      std::atan2(normal.x + 0.35f * normal.y, normal.z - 0.2f * normal.y) / glm::two_pi<float>();
+  const float turn = std::atan2(normal.x + 0.35f * normal.y, normal.z - 0.2f * normal.y) / glm::two_pi<float>();
   const glm::vec3 panel = panels[static_cast<int>(fraction(turn + 0.55f) * 12) % 6];
   const float diffuse = std::max(glm::dot(normal, ball_light), 0.0f);
   return Surface{panel * (0.07f + 0.85f * diffuse) + 1.5f * std::pow(diffuse, 60.0f),

@@ -27,11 +27,8 @@ float string_y(int string, float x) {
 
 // The only bulb of a string whose light reaches column x: bulbs are jittered, but each within its own cell.
 Bulb bulb_at(int string, float x) {
-  static constexpr glm::vec3 tints[] = {{1.0f, 0.52f, 0.18f},
-                                        {1.0f, 0.66f, 0.28f},
-                                        {0.95f, 0.12f, 0.16f},
-                                        {0.12f, 0.50f, 1.0f},
-                                        {0.18f, 0.9f, 0.35f}};
+  static constexpr glm::vec3 tints[] = {
+      {1.0f, 0.52f, 0.18f}, {1.0f, 0.66f, 0.28f}, {0.95f, 0.12f, 0.16f}, {0.12f, 0.50f, 1.0f}, {0.18f, 0.9f, 0.35f}};
   const float shift = 0.37f * static_cast<float>(string);
   const int cell = static_cast<int>(std::floor(x / bulb_spacing + shift));
   const float jitter = 0.4f * (hash(cell, string, 11u) - 0.5f);

@@ -15,8 +15,7 @@ constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 TEST(Depth, PlanarBackgroundIsNonFiniteNotPositiveOrHuge) {
   for (float depth : {nan_value, inf, -inf, 0.0f, -0.0f, -1.0f, 1.0e9f, 1.0e10f})
     EXPECT_TRUE(is_background(DepthKind::planar, depth)) << depth;
-  for (float depth : {1.0e-30f, 0.5f, 0.99e9f})
-    EXPECT_FALSE(is_background(DepthKind::planar, depth)) << depth;
+  for (float depth : {1.0e-30f, 0.5f, 0.99e9f}) EXPECT_FALSE(is_background(DepthKind::planar, depth)) << depth;
 }
 
 TEST(Depth, CocBackgroundIsNonFiniteOnly) {
@@ -26,8 +25,7 @@ TEST(Depth, CocBackgroundIsNonFiniteOnly) {
 
 TEST(Depth, PlanarSuspectsAreNanNegativeAndZeroUnderColour) {
   for (bool alpha_positive : {false, true}) {
-    for (float depth : {nan_value, -inf, -1.0f})
-      EXPECT_TRUE(is_suspect(DepthKind::planar, depth, alpha_positive));
+    for (float depth : {nan_value, -inf, -1.0f}) EXPECT_TRUE(is_suspect(DepthKind::planar, depth, alpha_positive));
     for (float depth : {1.0f, 1.0e9f, 1.0e10f, inf})
       EXPECT_FALSE(is_suspect(DepthKind::planar, depth, alpha_positive)) << depth;
     EXPECT_EQ(is_suspect(DepthKind::planar, 0.0f, alpha_positive), alpha_positive);
@@ -52,8 +50,7 @@ TEST(Depth, FillerIsBackgroundAndNeverSuspect) {
 
 TEST(Depth, KindNamesParseBack) {
   for (DepthKind kind : {DepthKind::planar, DepthKind::coc}) EXPECT_EQ(parse_depth_kind(name(kind)), kind);
-  expect_usage_error([] { parse_depth_kind("zbuffer"); },
-                     "--depth-kind: 'zbuffer' is not one of planar, coc");
+  expect_usage_error([] { parse_depth_kind("zbuffer"); }, "--depth-kind: 'zbuffer' is not one of planar, coc");
 }
 
 }  // namespace

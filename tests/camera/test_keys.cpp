@@ -11,16 +11,14 @@ namespace pullfocus {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr FocusInterp every_interpolation[] = {FocusInterp::dioptre, FocusInterp::distance,
-                                               FocusInterp::smooth};
+constexpr FocusInterp every_interpolation[] = {FocusInterp::dioptre, FocusInterp::distance, FocusInterp::smooth};
 
 KeyedValue focus(std::string_view text) { return KeyedValue::parse(text, "--focus", Infinity::legal); }
 
 TEST(Keys, ConstantHoldsOnEveryFrame) {
   const KeyedValue value = focus("1.5");
   for (int frame : {INT_MIN, -1, 0, 7, INT_MAX})
-    for (FocusInterp interpolation : every_interpolation)
-      EXPECT_EQ(value.focus_at(frame, interpolation), 1.5);
+    for (FocusInterp interpolation : every_interpolation) EXPECT_EQ(value.focus_at(frame, interpolation), 1.5);
 }
 
 TEST(Keys, EveryKeyReturnsItsValueBitForBitAndIsHeldOutside) {
@@ -86,8 +84,7 @@ TEST(Keys, ResultsStayBetweenNeighbouringKeysOverTheWholeRangeOfFrames) {
 
 TEST(Keys, InfiniteKeyWithDistanceInterpolationIsRefusedOnEveryFrame) {
   for (int frame : {-1, 1, 5, 24, 30})
-    expect_usage_error([&] { focus("1:0.4,24:inf").focus_at(frame, FocusInterp::distance); },
-                       "--focus-interp");
+    expect_usage_error([&] { focus("1:0.4,24:inf").focus_at(frame, FocusInterp::distance); }, "--focus-interp");
   EXPECT_EQ(focus("inf").focus_at(3, FocusInterp::distance), inf);
   EXPECT_EQ(focus("1:inf").focus_at(3, FocusInterp::distance), inf);
 }
@@ -105,22 +102,19 @@ TEST(Keys, TextRoundTripsExactly) {
 }
 
 TEST(Keys, MalformedTextIsRefusedByTheNameOfItsOption) {
-  for (const char* text :
-       {"",      " ",      "abc", "1.5mm", "0x10",    "nan",           "-1",   "0",        "-inf",
-        "1e999", "1e-320", ":",   "1:",    ":2",      "1:2,",          ",1:2", "1:2,,3:4", "1:2,3",
-        "1.5:2", "1:2:3",  "1:0", "1:nan", "1:2,1:3", "99999999999:1", "+5",   "1 2"})
+  for (const char* text : {"",      " ",      "abc", "1.5mm", "0x10",    "nan",           "-1",   "0",        "-inf",
+                           "1e999", "1e-320", ":",   "1:",    ":2",      "1:2,",          ",1:2", "1:2,,3:4", "1:2,3",
+                           "1.5:2", "1:2:3",  "1:0", "1:nan", "1:2,1:3", "99999999999:1", "+5",   "1 2"})
     expect_usage_error([&] { KeyedValue::parse(text, "--focus", Infinity::legal); }, "--focus: ");
 }
 
 TEST(Keys, InfinityIsRefusedWhereItHasNoMeaning) {
   for (const char* text : {"inf", "1:2,3:inf"})
-    expect_usage_error([&] { KeyedValue::parse(text, "--fstop", Infinity::refused); },
-                       "--fstop: must be finite");
+    expect_usage_error([&] { KeyedValue::parse(text, "--fstop", Infinity::refused); }, "--fstop: must be finite");
 }
 
 TEST(Keys, EmptyListIsRefused) {
-  expect_usage_error([] { KeyedValue(std::vector<Key>{}, "--fstop", Infinity::refused); },
-                     "--fstop: has no keys");
+  expect_usage_error([] { KeyedValue(std::vector<Key>{}, "--fstop", Infinity::refused); }, "--fstop: has no keys");
 }
 
 TEST(Keys, InterpolationNamesParseBack) {

@@ -62,8 +62,7 @@ TEST(LensOptions, EmptyWindowAndImpossiblePixelsAreRefused) {
 }
 
 TEST(LensOptions, NamesParseBack) {
-  for (LensModel model : {LensModel::render, LensModel::paper})
-    EXPECT_EQ(parse_lens_model(name(model)), model);
+  for (LensModel model : {LensModel::render, LensModel::paper}) EXPECT_EQ(parse_lens_model(name(model)), model);
   for (SensorFit fit : {SensorFit::horizontal, SensorFit::vertical, SensorFit::automatic})
     EXPECT_EQ(parse_sensor_fit(name(fit)), fit);
   expect_usage_error([] { parse_lens_model("thick"); }, "--lens: 'thick' is not one of render, paper");

@@ -46,13 +46,11 @@ TEST(ThinLens, PaperModelAgreesWithFearingEquations1To3) {
     const float depth = static_cast<float>(lens.focal_length_mm * log_uniform(random, 1.01, 1000));
     const CocFunction coc = coc_function(lens, {1920, 1080}, DepthKind::planar);
     const long double expected =
-        fearing_coc_mm(lens.focal_length_mm, lens.f_number, lens.focus_distance, depth) * 1920 /
-        lens.sensor_mm;
+        fearing_coc_mm(lens.focal_length_mm, lens.f_number, lens.focus_distance, depth) * 1920 / lens.sensor_mm;
     // Rounding of either inverse, of their difference, of scale and of the product.
     const double tolerance = 3 * float_epsilon * coc.scale * (1 / lens.focus_distance + 1.0 / depth);
     EXPECT_NEAR(coc(depth), static_cast<double>(expected), tolerance)
-        << "F " << lens.focal_length_mm << " n " << lens.f_number << " P " << lens.focus_distance << " U "
-        << depth;
+        << "F " << lens.focal_length_mm << " n " << lens.f_number << " P " << lens.focus_distance << " U " << depth;
   }
 }
 
@@ -63,8 +61,8 @@ TEST(ThinLens, RenderModelEqualsCyclesFormula) {
     const double z = log_uniform(random, 0.1, 1000);
     const CocFunction coc = coc_function(lens, {1280, 720}, DepthKind::planar);
     const double lens_m = lens.focal_length_mm / 1000;
-    const double radius_px = lens_m / (2 * lens.f_number) * lens_m *
-                             std::abs(1 / lens.focus_distance - 1 / z) * 1280 / (lens.sensor_mm / 1000);
+    const double radius_px = lens_m / (2 * lens.f_number) * lens_m * std::abs(1 / lens.focus_distance - 1 / z) * 1280 /
+                             (lens.sensor_mm / 1000);
     const double tolerance = 3 * float_epsilon * coc.scale * (1 / lens.focus_distance + 1 / z);
     EXPECT_NEAR(std::abs(coc(static_cast<float>(z))), 2 * radius_px, tolerance);
   }
@@ -171,8 +169,7 @@ TEST(ThinLens, AgreesWithValuesStoredBesideCyclesRenders) {
     const Raster raster{static_cast<int>(number(json, "width")), static_cast<int>(number(json, "height"))};
     const CocFunction coc = coc_function(lens, raster, DepthKind::planar);
     EXPECT_FLOAT_EQ(coc.scale, static_cast<float>(2 * number(json, "coc_px_times_m"))) << sequence;
-    EXPECT_FLOAT_EQ(coc.background(), static_cast<float>(2 * number(json, "coc_radius_px_at_infinity")))
-        << sequence;
+    EXPECT_FLOAT_EQ(coc.background(), static_cast<float>(2 * number(json, "coc_radius_px_at_infinity"))) << sequence;
   }
 }
 

@@ -13,8 +13,8 @@ Selection select(const Strings& channels, const ChannelOptions& options = {}, co
   return select_channels({"shot.exr", channels, views}, options);
 }
 
-void expect_failure(ErrorCode code, const Strings& parts, const Strings& channels,
-                    const ChannelOptions& options = {}, const Strings& views = {}) {
+void expect_failure(ErrorCode code, const Strings& parts, const Strings& channels, const ChannelOptions& options = {},
+                    const Strings& views = {}) {
   test::expect_error(code, parts, [&] { select(channels, options, views); });
 }
 
@@ -72,8 +72,7 @@ TEST(Channels, LayerOptionTakesTheFullNameOrItsEnd) {
   EXPECT_EQ(select(channels, {.layer = "V.Combined"}).layer, "V.Combined");
   EXPECT_EQ(select(channels, {.layer = "DiffCol"}).layer, "V.DiffCol");
   EXPECT_EQ(select(channels, {.layer = ""}).layer, "");
-  EXPECT_EQ(select(with_layers({"Combined", "W.Combined"}) + Strings{"Z"}, {.layer = "Combined"}).layer,
-            "Combined");
+  EXPECT_EQ(select(with_layers({"Combined", "W.Combined"}) + Strings{"Z"}, {.layer = "Combined"}).layer, "Combined");
   expect_failure(ErrorCode::usage, {"--layer Combined", "V.Combined"}, channels, {.layer = "Combined"});
   expect_failure(ErrorCode::usage, {"--layer ombined", "(root)"}, channels, {.layer = "ombined"});
   expect_failure(ErrorCode::usage, {"--layer none"}, channels, {.layer = "none"});
@@ -109,13 +108,11 @@ TEST(Channels, ZOfAVectorIsNotDepth) {
   const Strings normal = {"V.Normal.X", "V.Normal.Y", "V.Normal.Z"};
   EXPECT_EQ(select(with_layers({"V.Combined"}) + normal + Strings{"V.Depth.Z"}).depth, "V.Depth.Z");
   EXPECT_EQ(select(with_layers({"V.Combined"}) + normal + Strings{"W.dist.Z"}).depth, "W.dist.Z");
-  expect_failure(ErrorCode::unreadable, {"no depth channel", "V.Normal.Z"},
-                 with_layers({"V.Combined"}) + normal);
+  expect_failure(ErrorCode::unreadable, {"no depth channel", "V.Normal.Z"}, with_layers({"V.Combined"}) + normal);
 }
 
 TEST(Channels, TwoPossibleDepthsAreNamed) {
-  expect_failure(ErrorCode::usage, {"--depth-channel", "a.Z, b.Z"},
-                 with_layers({""}) + Strings{"a.Z", "b.Z"});
+  expect_failure(ErrorCode::usage, {"--depth-channel", "a.Z, b.Z"}, with_layers({""}) + Strings{"a.Z", "b.Z"});
 }
 
 TEST(Channels, MissingDepthNamesFileAndChannels) {
@@ -173,8 +170,7 @@ TEST(Channels, WithoutAViewListDottedNamesAreLayers) {
 }
 
 TEST(Channels, UnknownViewListsTheViews) {
-  expect_failure(ErrorCode::usage, {"'middle'", "right, left"}, stereo, {.view = "middle"},
-                 {"right", "left"});
+  expect_failure(ErrorCode::usage, {"'middle'", "right, left"}, stereo, {.view = "middle"}, {"right", "left"});
   expect_failure(ErrorCode::usage, {"has no views", "--view left"}, stereo, {.view = "left"});
 }
 

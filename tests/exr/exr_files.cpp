@@ -177,8 +177,7 @@ TestImage read_back(const std::string& path) {
   Imf::InputFile file(path.c_str());
   TestImage image(to_window(file.header().displayWindow()), to_window(file.header().dataWindow()));
   image.header = file.header();
-  for (auto channel = file.header().channels().begin(); channel != file.header().channels().end();
-       ++channel) {
+  for (auto channel = file.header().channels().begin(); channel != file.header().channels().end(); ++channel) {
     const Imf::PixelType type = channel.channel().type;
     image.channels[channel.name()] = {type, std::vector<std::byte>(image.data.pixels() * bytes_of(type))};
   }

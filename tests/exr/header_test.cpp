@@ -171,8 +171,7 @@ TEST(OutputHeader, EncodingOfTheInputIsLeftBehind) {
   image.header.lineOrder() = Imf::RANDOM_Y;
   image.header.setName("part");
   test::write_tiles(folder / "a.exr", image, 4, 4);
-  const Imf::Header header =
-      output_header(read_header(folder / "a.exr"), image.data, "", Imf::PIZ_COMPRESSION);
+  const Imf::Header header = output_header(read_header(folder / "a.exr"), image.data, "", Imf::PIZ_COMPRESSION);
   EXPECT_FALSE(header.hasTileDescription());
   EXPECT_FALSE(header.hasType());
   EXPECT_FALSE(header.hasName());

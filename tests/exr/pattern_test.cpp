@@ -46,8 +46,7 @@ TEST(Pattern, RangeBeforeTheMarksIsARange) {
 }
 
 TEST(Pattern, PlainNumbersBeforeTheMarksBelongToTheName) {
-  for (const char* text :
-       {"v2#.exr", "shot_1920x1080#.exr", "shot.#.exr", "shot-5#.exr", "box-#.exr", "x#.exr"}) {
+  for (const char* text : {"v2#.exr", "shot_1920x1080#.exr", "shot.#.exr", "shot-5#.exr", "box-#.exr", "x#.exr"}) {
     EXPECT_FALSE(Pattern::parse(text).inline_range()) << text;
   }
   EXPECT_EQ(path("v2#.exr", 1), "v20001.exr");
@@ -76,8 +75,8 @@ TEST(Pattern, SingleFileTakesItsFrameFromTheLastDigits) {
 }
 
 TEST(Pattern, MalformedPatternsAreUsageErrors) {
-  for (const char* text : {"", "folder/", "a.#.b.#.exr", "a.#.%04d.exr", "a.%d.%d.exr", "a.%4d.exr",
-                           "a.%s.exr", "a.%0xd.exr", "a%.exr", "a.%0999d.exr", "a.1-3x0#.exr"}) {
+  for (const char* text : {"", "folder/", "a.#.b.#.exr", "a.#.%04d.exr", "a.%d.%d.exr", "a.%4d.exr", "a.%s.exr",
+                           "a.%0xd.exr", "a%.exr", "a.%0999d.exr", "a.1-3x0#.exr"}) {
     SCOPED_TRACE(text);
     test::expect_error(ErrorCode::usage, {}, [&] { Pattern::parse(text); });
   }
@@ -86,8 +85,8 @@ TEST(Pattern, MalformedPatternsAreUsageErrors) {
 TEST(Pattern, DiscoverTakesOnlyNamesThatPathWouldWrite) {
   test::TempFolder folder;
   for (const char* name : {"shot.0002.exr", "shot.0010.exr", "shot.12345.exr", "shot.-001.exr", "shot.7.exr",
-                           "shot.00011.exr", "shot.0003.exr.bak", "shot.0003.png", "other.0004.exr",
-                           "shot.00a5.exr", "shot..exr", "shot.0006.1a2b3c4d.temp.exr", "shot.+004.exr"}) {
+                           "shot.00011.exr", "shot.0003.exr.bak", "shot.0003.png", "other.0004.exr", "shot.00a5.exr",
+                           "shot..exr", "shot.0006.1a2b3c4d.temp.exr", "shot.+004.exr"}) {
     test::write_bytes(folder / name, "x");
   }
   EXPECT_EQ(Pattern::parse(folder / "shot.####.exr").discover(), (Frames{-1, 2, 10, 12345}));

@@ -74,8 +74,7 @@ TEST(Range, FormatIsCompact) {
 }
 
 TEST(Range, ParsingWhatFormatWroteGivesTheFramesBack) {
-  for (const char* text :
-       {"1", "1-10", "10-1x3", "-5-5", "1,3,5,6,7,100,90,80", "1-100y7", "2147483647,-2147483648"}) {
+  for (const char* text : {"1", "1-10", "10-1x3", "-5-5", "1,3,5,6,7,100,90,80", "1-100y7", "2147483647,-2147483648"}) {
     const Frames frames = parse_frames(text);
     EXPECT_EQ(parse_frames(format_frames(frames)), frames) << text << " as " << format_frames(frames);
   }

@@ -37,8 +37,7 @@ TEST(Reader, ExtraChannelsAreBitForBit) {
     EXPECT_EQ(channel.type, image.channels.at(channel.name).type) << channel.name;
   }
   const Read cropped = read_scanlines(image, image.display);
-  EXPECT_EQ(pass_through(cropped.extra, image.display).channels,
-            pass_through(whole.extra, image.display).channels);
+  EXPECT_EQ(pass_through(cropped.extra, image.display).channels, pass_through(whole.extra, image.display).channels);
 }
 
 TEST(Reader, PassThroughIsZeroOutsideTheData) {
@@ -57,8 +56,7 @@ TEST(Reader, BuffersCanBeUsedAgain) {
   TempFolder folder;
   Frame frame;
   ExtraChannels extra;
-  for (const Window& data :
-       {Window{0, 0, 30, 30}, Window{5, 5, 6, 6}, Window{40, 40, 50, 50}, Window{-5, 0, 35, 9}}) {
+  for (const Window& data : {Window{0, 0, 30, 30}, Window{5, 5, 6, 6}, Window{40, 40, 50, 50}, Window{-5, 0, 35, 9}}) {
     TestImage image({0, 0, 30, 30}, data);
     image.add_rgbaz().add_noise("id", Imf::UINT);
     test::write_scanlines(folder / "a.exr", image);

@@ -18,10 +18,9 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 TEST(Reader, DataWindowMayLieAnywhereToTheStateWindow) {
   const Window state = {-3, -2, 17, 12};
-  const Window data_windows[] = {{-3, -2, 17, 12}, {0, 0, 5, 5},       {-8, -9, 30, 40}, {-8, 3, 2, 7},
-                                 {10, 3, 22, 7},   {2, -9, 5, 1},      {2, 9, 5, 19},    {-9, -9, -2, -1},
-                                 {16, 11, 20, 20}, {20, 0, 25, 10},    {0, 50, 9, 60},   {0, 0, 1, 1},
-                                 {-3, 3, 17, 300}, {-4, -300, 18, 300}};
+  const Window data_windows[] = {{-3, -2, 17, 12}, {0, 0, 5, 5},  {-8, -9, 30, 40}, {-8, 3, 2, 7},      {10, 3, 22, 7},
+                                 {2, -9, 5, 1},    {2, 9, 5, 19}, {-9, -9, -2, -1}, {16, 11, 20, 20},   {20, 0, 25, 10},
+                                 {0, 50, 9, 60},   {0, 0, 1, 1},  {-3, 3, 17, 300}, {-4, -300, 18, 300}};
   for (const Window& data : data_windows) {
     SCOPED_TRACE(testing::Message() << data.x0 << "," << data.y0 << " " << data.x1 << "," << data.y1);
     TestImage image(state, data);
@@ -62,8 +61,8 @@ TEST(Reader, OddSizesAndOriginsAreRead) {
 }
 
 TEST(Reader, EveryLosslessCompressionGivesTheSamePixels) {
-  for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION,
-                                             Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+  for (const Imf::Compression compression :
+       {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
     TestImage image({0, 0, 61, 77}, {-5, 3, 50, 80});
     image.add_rgbaz();
     image.header.compression() = compression;
@@ -74,9 +73,8 @@ TEST(Reader, EveryLosslessCompressionGivesTheSamePixels) {
 }
 
 TEST(Reader, LossyCompressionIsReadToo) {
-  for (const Imf::Compression compression :
-       {Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION,
-        Imf::DWAB_COMPRESSION}) {
+  for (const Imf::Compression compression : {Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION,
+                                             Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
     TestImage image({0, 0, 40, 40}, {0, 0, 40, 40});
     for (const char* name : {"R", "G", "B", "A"}) image.add_constant(name, Imf::HALF, 0.5f);
     image.add_constant("Z", Imf::FLOAT, 8);

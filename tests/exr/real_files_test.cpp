@@ -13,9 +13,8 @@ namespace {
 
 const std::string data = PULLFOCUS_SOURCE_DIR "/../shared/data";
 
-#define REQUIRE_DATA(folder)                                 \
-  if (!std::filesystem::is_directory(data + "/" + (folder))) \
-  GTEST_SKIP() << data << "/" << (folder) << " is not there"
+#define REQUIRE_DATA(folder) \
+  if (!std::filesystem::is_directory(data + "/" + (folder))) GTEST_SKIP() << data << "/" << (folder) << " is not there"
 
 TEST(RealFiles, BeachballIsOneShotWithAMovingDataWindow) {
   REQUIRE_DATA("beachball");

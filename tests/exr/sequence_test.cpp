@@ -138,8 +138,8 @@ TEST(StateWindow, MarginsGrowTheDisplayWindowAlone) {
 TEST(StateWindow, AutoIsTheDefault) { EXPECT_EQ(parse_overscan("auto"), Overscan{}); }
 
 TEST(StateWindow, NonsenseIsAUsageError) {
-  for (const char* text : {"", "Auto", "1", "1,2,3", "1,2,3,4,5", "1,2,3,-4", "1,2,3,4 ", "1.5,2,3,4",
-                           "1,,3,4", ",1,2,3", "99999999999,0,0,0", "2000000,0,0,0", "a,b,c,d"}) {
+  for (const char* text : {"", "Auto", "1", "1,2,3", "1,2,3,4,5", "1,2,3,-4", "1,2,3,4 ", "1.5,2,3,4", "1,,3,4",
+                           ",1,2,3", "99999999999,0,0,0", "2000000,0,0,0", "a,b,c,d"}) {
     SCOPED_TRACE(text);
     expect_error(ErrorCode::usage, {"--overscan"}, [&] { parse_overscan(text); });
   }

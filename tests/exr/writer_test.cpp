@@ -22,8 +22,8 @@ std::vector<OutputChannel> planar_channels(const TestImage& image) {
   std::vector<OutputChannel> channels;
   for (const auto& [name, channel] : image.channels) {
     const std::size_t bytes = sample_bytes(channel.type);
-    channels.push_back({name, channel.type, channel.samples.data(), bytes,
-                        bytes * static_cast<std::size_t>(image.data.width())});
+    channels.push_back(
+        {name, channel.type, channel.samples.data(), bytes, bytes * static_cast<std::size_t>(image.data.width())});
   }
   return channels;
 }
@@ -102,11 +102,8 @@ TEST(Writer, PartOfAnInterleavedImageIsWritten) {
   }
   const Window data = {1, 2, 4, 5};
   TestImage image({0, 0, 4, 4}, data);
-  const Selection selection{.layer = {},
-                            .view = {},
-                            .colour = {{"v.R", "R"}, {"v.G", "G"}, {"v.B", "B"}},
-                            .depth = {},
-                            .extra = {}};
+  const Selection selection{
+      .layer = {}, .view = {}, .colour = {{"v.R", "R"}, {"v.G", "G"}, {"v.B", "B"}}, .depth = {}, .extra = {}};
   write_exr(folder / "a.exr", image.header, colour_channels(colour, selection, data));
   const TestImage back = test::read_back(folder / "a.exr");
   ASSERT_EQ(back.channels.size(), 3u);
@@ -161,8 +158,7 @@ TEST(Writer, ImpossiblePathsAreNamedWithTheReason) {
   std::filesystem::create_directory(folder / "folder.exr");
   const TestImage image = noisy_image({0, 0, 9, 9});
   const auto expect = [&](const std::string& path, const std::string& reason) {
-    expect_error(ErrorCode::unwritable, {path, reason},
-                 [&] { write_exr(path, image.header, planar_channels(image)); });
+    expect_error(ErrorCode::unwritable, {path, reason}, [&] { write_exr(path, image.header, planar_channels(image)); });
   };
   expect(folder / "none/a.exr", "No such file or directory");
   expect(folder / "file/a.exr", "Not a directory");

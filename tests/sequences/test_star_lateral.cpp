@@ -43,8 +43,7 @@ Frame with_threads(std::size_t count, int frame) {
 }
 
 TEST(StarLateral, FramesAreTheSameForOneAndFourThreads) {
-  for (int frame : {1, 37, 100})
-    EXPECT_EQ(changed_pixels(with_threads(1, frame), with_threads(4, frame)), 0u);
+  for (int frame : {1, 37, 100}) EXPECT_EQ(changed_pixels(with_threads(1, frame), with_threads(4, frame)), 0u);
 }
 
 TEST(StarLateral, FramesDoNotDependOnThoseRenderedBefore) {
@@ -144,8 +143,8 @@ TEST(StarLateral, FilmKeepsSquarePixelsAtEverySize) {
 }
 
 TEST(StarLateral, EverySizeHasSoundDepthsAndColours) {
-  for (const StarLateral& scene : {StarLateral{1, 1}, StarLateral{7, 3}, StarLateral{3, 7},
-                                   StarLateral{400, 1}, StarLateral{1, 400}, StarLateral{128, 96}}) {
+  for (const StarLateral& scene : {StarLateral{1, 1}, StarLateral{7, 3}, StarLateral{3, 7}, StarLateral{400, 1},
+                                   StarLateral{1, 400}, StarLateral{128, 96}}) {
     Frame out;
     render(scene, 30, out);
     ASSERT_EQ(out.window(), (Window{0, 0, scene.width, scene.height}));

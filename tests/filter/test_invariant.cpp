@@ -1,0 +1,173 @@
+// The invariant of DESIGN section 5, and the promise that follows from it, as properties over random shots.
+#include <gtest/gtest.h>
+
+#include "filter/linear_filter.h"
+#include "random_frames.h"
+#include "reference.h"
+
+namespace pullfocus {
+namespace {
+
+using test::RandomShot;
+
+struct Case {
+  Window window;
+  float largest_px;
+  SampleType type;
+  bool with_alpha, hostile;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.window.width() << "x" << c.window.height() << " to " << c.largest_px << " px"
+             << (c.type == SampleType::half ? " half" : " float") << (c.with_alpha ? " alpha" : "")
+             << (c.hostile ? " hostile" : "");
+}
+
+FilterOptions options_for(const Case& c) {
+  FilterOptions options;
+  options.kernel.max_coc_px = std::max(1.f, c.largest_px);
+  options.output_type = SampleType::float32;
+  return options;
+}
+
+Budget random_budget(std::mt19937& random) {
+  Budget budget;
+  switch (std::uniform_int_distribution<int>(0, 3)(random)) {
+    case 0:
+      return budget;
+    case 1:
+      budget.kind = Budget::Kind::count;
+      budget.amount = std::uniform_int_distribution<int>(0, 300)(random);
+      return budget;
+    default:
+      budget.amount = std::uniform_int_distribution<int>(1, 100)(random);
+      return budget;
+  }
+}
+
+class Invariant : public testing::TestWithParam<Case> {};
+
+TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndStop) {
+  const Case& c = GetParam();
+  const auto kernels = std::make_shared<const KernelTable>(options_for(c).kernel);
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
+    FilterOptions options = options_for(c);
+    options.budget = random_budget(shot.random());
+    options.slice_edges = 1 + static_cast<std::int64_t>(shot.random()() % 3000);
+    options.threads = 1 + static_cast<int>(seed % 4);
+    IncrementalFilter filter(c.window, options, kernels);
+    CocFunction coc = test::random_lens(shot.random(), c.largest_px);
+    for (int frame = 0; frame < 8; ++frame) {
+      if (frame > 0) shot.step();
+      if (shot.random()() % 2) coc = test::random_lens(shot.random(), c.largest_px);
+      int slices_left = static_cast<int>(shot.random()() % 12);
+      const bool stoppable = shot.random()() % 2;
+      const Stats& stats =
+          filter.filter(shot.frame(), coc, stoppable ? StopRequest([&] { return slices_left-- == 0; }) : StopRequest());
+      ASSERT_EQ(stats.changed, stats.updated + stats.left_over);
+      ASSERT_EQ(stats.mode == ScatterMode::unchanged, stats.updated == 0);
+      const auto expected = test::exact_sums(filter.committed(), *kernels, filter.lanes());
+      ASSERT_TRUE(std::ranges::equal(filter.accumulators(), expected)) << "seed " << seed << ", frame " << frame;
+    }
+  }
+}
+
+TEST_P(Invariant, IncrementalEqualsLinearBitForBitWheneverNothingIsLeftOver) {
+  const Case& c = GetParam();
+  const auto kernels = std::make_shared<const KernelTable>(options_for(c).kernel);
+  for (unsigned seed = 11; seed <= 13; ++seed) {
+    RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
+    FilterOptions options = options_for(c);
+    options.threads = 1;
+    LinearFilter linear(c.window, options, kernels);
+    options.threads = 1 + static_cast<int>(seed % 4);
+    options.slice_edges = 500;
+    IncrementalFilter incremental(c.window, options, kernels);
+    CocFunction coc = test::random_lens(shot.random(), c.largest_px);
+    for (int frame = 0; frame < 8; ++frame) {
+      if (frame > 0) shot.step();
+      if (shot.random()() % 3 == 0) coc = test::random_lens(shot.random(), c.largest_px);
+      if (shot.random()() % 3 == 0) incremental.filter(shot.frame(), coc, [] { return true; });
+      const Stats stats = incremental.filter(shot.frame(), coc);
+      ASSERT_EQ(stats.left_over, 0);
+      linear.filter(shot.frame(), coc);
+      ASSERT_EQ(test::difference(incremental.result(), linear.result()), "") << "seed " << seed << " frame " << frame;
+      ASSERT_EQ(incremental.result_window(), linear.result_window());
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shots, Invariant,
+                         testing::Values(Case{{0, 0, 1, 1}, 20, SampleType::float32, true, true},
+                                         Case{{0, 0, 1, 7}, 40, SampleType::half, false, true},
+                                         Case{{0, 0, 9, 1}, 60, SampleType::float32, true, false},
+                                         Case{{-3, 5, 2, 8}, 100, SampleType::half, true, true},
+                                         Case{{0, 0, 17, 13}, 12, SampleType::half, false, false},
+                                         Case{{10, -20, 73, 19}, 8, SampleType::float32, true, true},
+                                         Case{{0, 0, 64, 16}, 25, SampleType::half, true, false},
+                                         Case{{0, 0, 65, 33}, 30, SampleType::float32, false, true},
+                                         Case{{0, 0, 131, 70}, 14, SampleType::half, true, true}));
+
+TEST(Invariance, TheResultDoesNotDependOnTheNumberOfThreads) {
+  const Window window{0, 0, 150, 90};
+  FilterOptions options;
+  options.kernel.max_coc_px = 30;
+  options.budget.amount = 37;
+  RandomShot shot(window, 5, SampleType::half, true, true);
+  std::vector<std::unique_ptr<IncrementalFilter>> filters;
+  for (const int threads : {1, 2, 3, 4}) {
+    options.threads = threads;
+    filters.push_back(std::make_unique<IncrementalFilter>(window, options));
+  }
+  for (int frame = 0; frame < 10; ++frame) {
+    if (frame > 0) shot.step();
+    const CocFunction coc = test::random_lens(shot.random(), 30);
+    const Stats first = filters[0]->filter(shot.frame(), coc);
+    for (std::size_t f = 1; f < filters.size(); ++f) {
+      const Stats stats = filters[f]->filter(shot.frame(), coc);
+      ASSERT_EQ(stats.edges, first.edges);
+      ASSERT_EQ(stats.updated, first.updated);
+      ASSERT_EQ(stats.resolved, first.resolved);
+      ASSERT_EQ(test::difference(filters[f]->result(), filters[0]->result()), "");
+    }
+  }
+}
+
+TEST(Invariance, AFilterThatMeetsHalfAndFloatFramesEqualsLinear) {
+  const Window window{0, 0, 40, 25};
+  FilterOptions options;
+  options.kernel.max_coc_px = 16;
+  options.kernel.max_radiance = 100.03f;  // not a half: must mean the same for both types
+  options.output_type = SampleType::half;
+  RandomShot shot(window, 3, SampleType::half, true, true);
+  IncrementalFilter incremental(window, options);
+  LinearFilter linear(window, options);
+  const CocFunction coc = test::random_lens(shot.random(), 16);
+  for (const SampleType type : {SampleType::half, SampleType::float32, SampleType::half, SampleType::float32}) {
+    shot.use_type(type);
+    shot.step();
+    incremental.filter(shot.frame(), coc);
+    linear.filter(shot.frame(), coc);
+    ASSERT_EQ(test::difference(incremental.result(), linear.result()), "");
+  }
+}
+
+TEST(Invariance, ResetForgetsTheShot) {
+  const Window window{0, 0, 30, 30};
+  FilterOptions options;
+  options.kernel.max_coc_px = 10;
+  RandomShot shot(window, 8, SampleType::half, true, false);
+  IncrementalFilter used(window, options), fresh(window, options);
+  const CocFunction coc = test::random_lens(shot.random(), 10);
+  used.filter(shot.frame(), coc);
+  used.reset();
+  shot.step();
+  const Stats after_reset = used.filter(shot.frame(), coc);
+  EXPECT_EQ(after_reset.updated, 900);
+  fresh.filter(shot.frame(), coc);
+  EXPECT_EQ(test::difference(used.result(), fresh.result()), "");
+}
+
+}  // namespace
+}  // namespace pullfocus
