@@ -32,7 +32,10 @@ void add_input_options(CLI::App& app, InputArguments& a) {
 namespace {
 
 exr::Sequence open(const InputArguments& input, exr::BadFrames bad_frames) {
-  return exr::open_sequence(exr::Pattern::parse(input.input), input.frames, bad_frames);
+  if (input.frames && input.frames->empty()) {
+    throw Error(ErrorCode::usage, "--frames is empty: give frames such as 1-10, or leave it out");
+  }
+  return exr::open_sequence(exr::Pattern::parse(input.input), input.frames.value_or(""), bad_frames);
 }
 
 }  // namespace

@@ -18,8 +18,7 @@ namespace pullfocus::cli {
 
 struct InputArguments {
   std::string input;
-  std::string frames;
-  std::optional<std::string> layer, view, depth_channel;
+  std::optional<std::string> frames, layer, view, depth_channel;
   std::string overscan = "auto";
 };
 void add_input_options(CLI::App& app, InputArguments& arguments);

@@ -28,7 +28,7 @@ Imf::Compression parse_compression(std::string_view name) {
   const auto found = std::ranges::find(compression_names, lower(name));
   if (found == compression_names.end()) {
     throw Error(ErrorCode::usage,
-                fmt::format("compression '{}': not one of {}", name, fmt::join(compression_names, ", ")));
+                fmt::format("--compression '{}': not one of {}", name, fmt::join(compression_names, ", ")));
   }
   return static_cast<Imf::Compression>(found - compression_names.begin());
 }
