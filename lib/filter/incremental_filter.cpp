@@ -93,14 +93,14 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
     if (!stop) {
       const EdgeCount edges = count_edges(selected, pending);
       if (rebuild_is_cheaper(edges, count_pixels(selected))) {
-        rebuild(selected, pending);
+        rebuild(selected, edges, pending);
       } else {
-        update(selected, pending);
+        update(selected, edges, pending);
       }
     } else {
       for (const auto& slice : cut_slices(selected, pending, core_.options.importance, core_.options.slice_edges)) {
         if (stop()) break;
-        update(slice, pending);
+        update(slice, count_edges(slice, pending), pending);
       }
     }
     stats_.scatter_ms = scatter.ms();
@@ -132,9 +132,8 @@ bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges, std::int64_t 
   return updated > 0 && 5 * edges.written + 32 * updated > 4 * edges_after + 32 * pixels;
 }
 
-void IncrementalFilter::update(const std::vector<TileWork>& selected, const Pending& pending) {
+void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending) {
   if (selected.empty()) return;
-  const EdgeCount edges = count_edges(selected, pending);
   const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
   core_.scatter.run(selected, {&state_, &pending.frame, pending_.data(), &core_.sanitiser}, lanes_, core_.threads,
                     [&](int y, int x0, int x1, const Accumulator* values) {
@@ -150,8 +149,8 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Pend
   stats_.mode = ScatterMode::incremental;
 }
 
-void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const Pending& pending) {
-  edges_ += count_edges(selected, pending).committed;
+void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending) {
+  edges_ += edges.committed;
   commit(pending.frame, core_.sanitiser, pending_, selected, state_);
   std::fill(sums_.begin(), sums_.end(), Accumulator{0});
   const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());

@@ -42,8 +42,8 @@ class IncrementalFilter final : public Filter {
   void widen_lanes();
   std::vector<TileWork> select(const Changes& changes, const Pending& pending) const;
   bool rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept;
-  void update(const std::vector<TileWork>& selected, const Pending& pending);
-  void rebuild(const std::vector<TileWork>& selected, const Pending& pending);
+  void update(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending);
+  void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending);
   void resolve_dirty();
   void count_uncommitted();
   void show_uncommitted(const Frame& frame);
