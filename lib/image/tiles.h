@@ -39,6 +39,21 @@ struct TileMask {
     for (const std::uint64_t row : rows) all |= row;
     return all != 0;
   }
+  // Bounds of the set: columns [x0, x1), rows [y0, y1) from the tile's corner. Not for an empty set.
+  struct Bounds {
+    int x0, y0, x1, y1;
+  };
+  Bounds bounds() const noexcept {
+    std::uint64_t all = 0;
+    int first = kTileHeight, last = 0;
+    for (int y = 0; y < kTileHeight; ++y) {
+      if (rows[y] == 0) continue;
+      all |= rows[y];
+      if (y < first) first = y;
+      last = y;
+    }
+    return {std::countr_zero(all), first, 64 - std::countl_zero(all), last + 1};
+  }
   int count() const noexcept {
     int n = 0;
     for (const std::uint64_t row : rows) n += std::popcount(row);

@@ -77,19 +77,17 @@ void SegmentIngest<type>::content(int x, int y, int n, const std::int16_t* indic
   Window& bounds = findings.content;
   // Where neither the bounds nor the largest index can grow there is nothing to look for.
   const bool inside = x >= bounds.x0 && x + n <= bounds.x1 && y >= bounds.y0 && y < bounds.y1;
-  if (inside && largest <= findings.content_index) return;
-  if (largest <= findings.content_index) {
+  if (!inside) {
     int first = 0, last = n - 1;
     while (first <= last && !has_content(x + first, y)) ++first;
     if (first > last) return;
     while (!has_content(x + last, y)) --last;
     bounds = unite(bounds, {x + first, y, x + last + 1, y + 1});
-    return;
   }
+  if (largest <= findings.content_index) return;
   for (int i = 0; i < n; ++i) {
-    if (!has_content(x + i, y)) continue;
-    bounds = unite(bounds, {x + i, y, x + i + 1, y + 1});
-    findings.content_index = std::max(findings.content_index, std::abs(static_cast<int>(indices[i])));
+    const int index = std::abs(static_cast<int>(indices[i]));
+    if (index > findings.content_index && has_content(x + i, y)) findings.content_index = index;
   }
 }
 

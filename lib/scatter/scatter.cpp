@@ -119,14 +119,14 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
   EmissionRow<lanes> row;
   for (const Mirrored& image : images) {
     for (const TileWork& work : tiles) {
-      const int x = grid_.x(work.tile), y = grid_.y(work.tile), tile_height = grid_.tile_height(work.tile);
-      const auto largest = static_cast<std::size_t>(work.max_index);
-      const int rx = reach_x_[largest], ry = reach_y_[largest];
-      const int ya = std::max(image.y0, y - ry), yb = std::min(image.y1, y + tile_height + ry);
+      const int x = grid_.x(work.tile), y = grid_.y(work.tile);
+      const TileMask::Bounds part = work.mask.bounds();
+      const int rx = reach_x(work.max_index), ry = reach_y(work.max_index);
+      const int ya = std::max(image.y0, y + part.y0 - ry), yb = std::min(image.y1, y + part.y1 + ry);
       if (ya >= yb) continue;
       const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
-      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x - rx, x + grid_.tile_width(work.tile) + rx + 1);
-      for (int i = 0; i < tile_height; ++i) {
+      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x + part.x0 - rx, x + part.x1 + rx + 1);
+      for (int i = part.y0; i < part.y1; ++i) {
         if (work.mask.rows[i] == 0 || y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
         dispatch(sources.state->colour.type(),
                  [&]<SampleType type>() { collect<lanes, type>(sources, x, y + i, work.mask.rows[i], row); });
@@ -145,21 +145,22 @@ void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int l
   if (tiles.empty()) return;
   int largest = 0, y_first = grid_.height, y_last = 0;
   for (const TileWork& work : tiles) {
-    const int reach = reach_y_[static_cast<std::size_t>(work.max_index)];
+    const int reach = reach_y(work.max_index);
+    const TileMask::Bounds part = work.mask.bounds();
     largest = std::max(largest, work.max_index);
-    y_first = std::min(y_first, grid_.y(work.tile) - reach);
-    y_last = std::max(y_last, grid_.y(work.tile) + grid_.tile_height(work.tile) + reach);
+    y_first = std::min(y_first, grid_.y(work.tile) + part.y0 - reach);
+    y_last = std::max(y_last, grid_.y(work.tile) + part.y1 + reach);
   }
   // Mirrored rows land no farther from the border than the reach beyond it, so these bounds hold them too.
   y_first = std::max(y_first, 0);
   y_last = std::min(y_last, grid_.height);
   // Beyond the reach lies room for the last edge, and for the zeros that fill up a group of sources.
-  const BandLayout layout{grid_.width, grid_.height, reach_x_[static_cast<std::size_t>(largest)] + kWindow, lanes};
+  const BandLayout layout{grid_.width, grid_.height, reach_x(largest) + kWindow, lanes};
 
-  // Tall bands visit each source seldom, low ones stay in cache and feed all threads.
+  // Low bands feed all threads evenly, but bands lower than the reach visit every source several times.
   const int span = y_last - y_first;
   const int share = (span + 4 * threads - 1) / (4 * threads);
-  const int band_rows = std::clamp(share, 16, 128);
+  const int band_rows = std::clamp(share, std::clamp(reach_y(largest), 16, 64), 128);
   const int band_count = (span + band_rows - 1) / band_rows;
   tbb::parallel_for(0, band_count, [&](int b) {
     Band& band = bands_.local();
