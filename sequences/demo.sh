@@ -9,8 +9,8 @@ build=${PULLFOCUS_BUILD:-build}
 out=out/demo
 
 sequences/setup.sh
-cmake --preset release -B "$build" -DPULLFOCUS_TESTS=OFF >/dev/null
-cmake --build "$build"
+cmake --preset release -B "$build" >/dev/null
+cmake --build "$build" --target pullfocus_tool
 tool=$build/cli/pullfocus
 
 rm -rf "$out"

@@ -7,6 +7,6 @@ sequences/setup.sh
 preset=${PULLFOCUS_PRESET:-release}
 build=${PULLFOCUS_BUILD:-build}
 [ "$preset" = release ] || build=${PULLFOCUS_BUILD:-build-$preset}
-cmake --preset "$preset" -B "$build" -DPULLFOCUS_TESTS=ON
+cmake --preset "$preset" -B "$build"
 cmake --build "$build"
 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "$@"
