@@ -31,6 +31,7 @@ void IncrementalFilter::reset() {
   sums_.assign(core_.window.pixels() * static_cast<std::size_t>(lanes_), 0);
   uncommitted_ = static_cast<std::int64_t>(core_.window.pixels());
   edges_ = 0;
+  waiting_.clear();
   dirty_.reset(core_.window.width(), core_.window.height());
   result_window_ = {};
   result_ = {};
@@ -90,6 +91,7 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
 
     const Stopwatch scatter;
     const bool was_incomplete = uncommitted_ > 0;
+    std::vector<TileWork> done;
     if (!stop) {
       const EdgeCount edges = count_edges(selected, pending);
       if (rebuild_is_cheaper(edges, count_pixels(selected))) {
@@ -97,16 +99,21 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
       } else {
         update(selected, edges, pending);
       }
+      if (stats_.updated < stats_.changed) done = selected;
     } else {
       for (const auto& slice : cut_slices(selected, pending, core_.options.importance, core_.options.slice_edges)) {
         if (stop()) break;
         update(slice, count_edges(slice, pending), pending);
+        done.insert(done.end(), slice.begin(), slice.end());
       }
+      done = merged(std::move(done));
     }
     stats_.scatter_ms = scatter.ms();
 
     const Stopwatch resolve;
     stats_.left_over = stats_.changed - stats_.updated;
+    const TileGrid grid{core_.window.width(), core_.window.height()};
+    waiting_.update(grid, stats_.left_over > 0 ? without(changes.tiles, done) : std::vector<TileWork>{});
     const Window reached = core_.reached(changes.findings);
     result_window_ = stats_.left_over > 0 ? unite(result_window_, reached) : reached;
     if (was_incomplete) count_uncommitted();
@@ -120,8 +127,9 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
 
 std::vector<TileWork> IncrementalFilter::select(const Changes& changes, const Pending& pending) const {
   const bool first = uncommitted_ == static_cast<std::int64_t>(core_.window.pixels());
-  const std::int64_t most = first ? changes.pixels : core_.options.budget.pixels(changes.pixels);
-  return select_most_important(changes, pending, core_.options.importance, most);
+  const Budget& budget = core_.options.budget;
+  const Allowance allowance{first ? changes.pixels : budget.pixels(changes.pixels), budget.longest_wait()};
+  return select_pixels(changes, pending, core_.options.importance, waiting_, allowance);
 }
 
 // Edges decide. Changed pixels lie scattered and convert two colours, hence a quarter more an edge than a

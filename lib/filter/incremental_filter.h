@@ -53,6 +53,7 @@ class IncrementalFilter final : public Filter {
   std::vector<std::int16_t> pending_;
   std::vector<Accumulator> sums_;
   int lanes_ = kOpaqueLanes;
+  WaitingTimes waiting_;
   std::int64_t uncommitted_ = 0;  // pixels never committed
   std::int64_t edges_ = 0;        // of the committed state
   DirtySpans dirty_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -26,6 +27,10 @@ const char* name(ScatterMode mode) noexcept {
 std::int64_t Budget::pixels(std::int64_t changed) const noexcept {
   if (kind == Kind::count) return amount < static_cast<double>(changed) ? static_cast<std::int64_t>(amount) : changed;
   return amount >= 100 ? changed : static_cast<std::int64_t>(std::ceil(static_cast<double>(changed) * amount / 100));
+}
+
+int Budget::longest_wait() const noexcept {
+  return kind == Kind::percent ? static_cast<int>(std::min(std::ceil(200 / amount), 60000.)) : 0;
 }
 
 Budget Budget::parse(std::string_view text) {

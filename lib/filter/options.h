@@ -19,6 +19,9 @@ struct Budget {
 
   std::int64_t pixels(std::int64_t changed) const noexcept;
 
+  // A percentage promises that no change waits for more than so many calls, ceil(200 / percent); 0: no promise.
+  int longest_wait() const noexcept;
+
   // "15%" or "200000". Throws Error(usage) naming --budget.
   static Budget parse(std::string_view text);
 };

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace pullfocus {
 
@@ -90,50 +92,124 @@ EdgeCount edges_of_pixel(const Pending& pending, std::size_t at) noexcept {
 
 }  // namespace
 
-std::vector<TileWork> select_most_important(const Changes& changes, const Pending& pending,
-                                            const ImportanceOptions& options, std::int64_t most) {
-  if (most >= changes.pixels) return changes.tiles;
+namespace {
+
+struct Candidate {
+  std::uint64_t rank;  // importance, then scrambled position: no two are equal
+  int waited;
+  bool taken = false;
+};
+
+// All changed pixels, tile after tile.
+std::vector<Candidate> candidates_of(const Changes& changes, const Pending& pending, const ImportanceOptions& options,
+                                     const WaitingTimes& waiting) {
   const TileGrid grid = grid_of(pending);
   const auto buckets = buckets_of(changes.tiles, pending, options);
-
-  std::vector<std::int64_t> histogram(kBuckets + 1);
-  for (const auto& tile : buckets) {
-    for (const std::uint8_t b : tile) ++histogram[b];
-  }
-  int last = kBuckets;
-  std::int64_t left = most;
-  while (last > 0 && histogram[static_cast<std::size_t>(last)] <= left) {
-    left -= histogram[static_cast<std::size_t>(last--)];
-  }
-
-  // The last bucket is served in part: the `left` first by scrambled position.
-  const auto position = [&](int x, int y) {
-    return scrambled(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(grid.width) +
-                     static_cast<std::uint32_t>(x));
-  };
-  std::vector<std::uint32_t> ties;
+  std::vector<Candidate> candidates;
+  candidates.reserve(static_cast<std::size_t>(changes.pixels));
   for (std::size_t t = 0; t < changes.tiles.size(); ++t) {
     std::size_t i = 0;
     for_each_tile_pixel(grid, changes.tiles[t], [&](int, int, int x, int y) {
-      if (buckets[t][i++] == last) ties.push_back(position(x, y));
+      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + x;
+      const std::uint64_t importance = buckets[t][i++];
+      candidates.push_back({importance << 32 | ~scrambled(static_cast<std::uint32_t>(pixel)), waiting.of(pixel)});
     });
   }
-  const bool some = left > 0;
-  if (some) std::nth_element(ties.begin(), ties.begin() + (left - 1), ties.end());
-  const std::uint32_t last_position = some ? ties[static_cast<std::size_t>(left - 1)] : 0;
+  return candidates;
+}
+
+// Takes the n candidates not yet taken that `eligible` lets in and that have the largest keys; returns how many.
+template <typename Eligible, typename Key>
+std::int64_t take_largest(std::vector<Candidate>& candidates, std::int64_t n, Eligible&& eligible, Key&& key) {
+  std::vector<decltype(key(candidates[0]))> keys;
+  for (const Candidate& c : candidates) {
+    if (!c.taken && eligible(c)) keys.push_back(key(c));
+  }
+  n = std::min(n, static_cast<std::int64_t>(keys.size()));
+  if (n <= 0) return 0;
+  std::nth_element(keys.begin(), keys.begin() + (n - 1), keys.end(), std::greater<>());
+  const auto smallest = keys[static_cast<std::size_t>(n - 1)];
+  for (Candidate& c : candidates) c.taken |= eligible(c) && key(c) >= smallest;
+  return n;
+}
+
+}  // namespace
+
+std::vector<TileWork> select_pixels(const Changes& changes, const Pending& pending, const ImportanceOptions& options,
+                                    const WaitingTimes& waiting, const Allowance& allowance) {
+  if (allowance.pixels >= changes.pixels) return changes.tiles;
+  std::vector<Candidate> candidates = candidates_of(changes, pending, options, waiting);
+
+  std::int64_t left = allowance.pixels;
+  const std::int64_t oldest_share = (allowance.pixels + 1) / 2;
+  left -= take_largest(
+      candidates, oldest_share, [](const Candidate& c) { return c.waited > 0; },
+      [](const Candidate& c) { return std::pair(c.waited, c.rank); });
+  take_largest(
+      candidates, left, [](const Candidate&) { return true; }, [](const Candidate& c) { return c.rank; });
+  if (allowance.longest_wait > 0) {
+    for (Candidate& c : candidates) c.taken |= c.waited >= allowance.longest_wait;
+  }
 
   std::vector<TileWork> selected;
-  for (std::size_t t = 0; t < changes.tiles.size(); ++t) {
-    TileWork work{changes.tiles[t].tile, changes.tiles[t].max_index, {}};
-    std::size_t i = 0;
-    for_each_tile_pixel(grid, changes.tiles[t], [&](int row, int p, int x, int y) {
-      const int bucket = buckets[t][i++];
-      const bool take = bucket > last || (some && bucket == last && position(x, y) <= last_position);
-      work.mask.rows[row] |= std::uint64_t{take} << p;
+  std::size_t i = 0;
+  for (const TileWork& changed : changes.tiles) {
+    TileWork work{changed.tile, changed.max_index, {}};
+    for_each_tile_pixel(grid_of(pending), changed, [&](int row, int p, int, int) {
+      work.mask.rows[row] |= std::uint64_t{candidates[i++].taken} << p;
     });
     if (work.mask.any()) selected.push_back(work);
   }
   return selected;
+}
+
+std::vector<TileWork> merged(std::vector<TileWork> tiles) {
+  std::sort(tiles.begin(), tiles.end(), [](const TileWork& a, const TileWork& b) { return a.tile < b.tile; });
+  std::vector<TileWork> result;
+  for (const TileWork& work : tiles) {
+    if (result.empty() || result.back().tile != work.tile) {
+      result.push_back(work);
+      continue;
+    }
+    for (int i = 0; i < kTileHeight; ++i) result.back().mask.rows[i] |= work.mask.rows[i];
+    result.back().max_index = std::max(result.back().max_index, work.max_index);
+  }
+  return result;
+}
+
+std::vector<TileWork> without(const std::vector<TileWork>& all, const std::vector<TileWork>& some) {
+  std::vector<TileWork> rest;
+  auto minus = some.begin();
+  for (TileWork work : all) {
+    while (minus != some.end() && minus->tile < work.tile) ++minus;
+    if (minus != some.end() && minus->tile == work.tile) {
+      for (int i = 0; i < kTileHeight; ++i) work.mask.rows[i] &= ~minus->mask.rows[i];
+    }
+    if (work.mask.any()) rest.push_back(work);
+  }
+  return rest;
+}
+
+void WaitingTimes::update(const TileGrid& grid, const std::vector<TileWork>& left) {
+  if (left.empty() && last_.empty()) return;
+  waited_.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  const auto at = [&](int x, int y) -> std::uint16_t& {
+    return waited_[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + x];
+  };
+  for (const TileWork& work : without(last_, left)) {
+    for_each_tile_pixel(grid, work, [&](int, int, int x, int y) { at(x, y) = 0; });
+  }
+  for (const TileWork& work : left) {
+    for_each_tile_pixel(grid, work, [&](int, int, int x, int y) {
+      if (at(x, y) < 0xffff) ++at(x, y);
+    });
+  }
+  last_ = left;
+}
+
+void WaitingTimes::clear() noexcept {
+  waited_.clear();
+  last_.clear();
 }
 
 EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending) {
