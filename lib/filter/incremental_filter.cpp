@@ -91,23 +91,7 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
 
     const Stopwatch scatter;
     const bool was_incomplete = uncommitted_ > 0;
-    std::vector<TileWork> done;
-    if (!stop) {
-      const EdgeCount edges = count_edges(selected, pending);
-      if (rebuild_is_cheaper(edges, count_pixels(selected))) {
-        rebuild(selected, edges, pending);
-      } else {
-        update(selected, edges, pending);
-      }
-      if (stats_.updated < stats_.changed) done = selected;
-    } else {
-      for (const auto& slice : cut_slices(selected, pending, core_.options.importance, core_.options.slice_edges)) {
-        if (stop()) break;
-        update(slice, count_edges(slice, pending), pending);
-        done.insert(done.end(), slice.begin(), slice.end());
-      }
-      done = merged(std::move(done));
-    }
+    const std::vector<TileWork> done = take_over(selected, pending, stop);
     stats_.scatter_ms = scatter.ms();
 
     const Stopwatch resolve;
@@ -130,6 +114,26 @@ std::vector<TileWork> IncrementalFilter::select(const Changes& changes, const Pe
   const Budget& budget = core_.options.budget;
   const Allowance allowance{first ? changes.pixels : budget.pixels(changes.pixels), budget.longest_wait()};
   return select_pixels(changes, pending, core_.options.importance, waiting_, allowance);
+}
+
+std::vector<TileWork> IncrementalFilter::take_over(const std::vector<TileWork>& selected, const Pending& pending,
+                                                   const StopRequest& stop) {
+  if (!stop) {
+    const EdgeCount edges = count_edges(selected, pending);
+    if (rebuild_is_cheaper(edges, count_pixels(selected))) {
+      rebuild(selected, edges, pending);
+    } else {
+      update(selected, edges, pending);
+    }
+    return selected;
+  }
+  std::vector<TileWork> done;
+  for (const auto& slice : cut_slices(selected, pending, core_.options.importance, core_.options.slice_edges)) {
+    if (stop()) break;
+    update(slice, count_edges(slice, pending), pending);
+    done.insert(done.end(), slice.begin(), slice.end());
+  }
+  return merged(std::move(done));
 }
 
 // Edges decide. Changed pixels lie scattered and convert two colours, hence a quarter more an edge than a

@@ -41,6 +41,9 @@ class IncrementalFilter final : public Filter {
   void prepare_result(SampleType type);
   void widen_lanes();
   std::vector<TileWork> select(const Changes& changes, const Pending& pending) const;
+  // Scatters and commits the selection, slice by slice if the call can be stopped; returns what was committed.
+  std::vector<TileWork> take_over(const std::vector<TileWork>& selected, const Pending& pending,
+                                  const StopRequest& stop);
   bool rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept;
   void update(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending);
   void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending);
