@@ -21,6 +21,12 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
   app.add_option("--w-rgb", a.w_rgb, "importance of a change of colour, linear RGB")
       ->group(group)
       ->capture_default_str();
+  app.add_option("--coc-threshold", a.coc_threshold, "leave changes of CoC up to so many pixels of diameter alone")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--rgb-threshold", a.rgb_threshold, "leave changes of colour (linear RGB) up to this alone")
+      ->group(group)
+      ->capture_default_str();
   app.add_option("--coc-step", a.coc_step,
                  "step between CoC diameters as a share of them, half a pixel at least; 0: half a pixel")
       ->group(group);
@@ -44,6 +50,7 @@ FilterOptions filter_options(const FilterArguments& a, double pixel_aspect) {
   FilterOptions options;
   options.kernel = {a.coc_step, a.max_coc, pixel_aspect, a.max_radiance};
   options.importance = {a.w_coc, a.w_rgb};
+  options.thresholds = {a.coc_threshold, a.rgb_threshold};
   options.budget = Budget::parse(a.budget);
   options.threads = a.threads;
   if (a.output_type == "half") {

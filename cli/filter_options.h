@@ -16,6 +16,7 @@ struct FilterArguments {
   std::string method = "incremental", visibility = "none", budget = "100%", output_type;
   double coc_step = KernelOptions{}.coc_step, max_coc = KernelOptions{}.max_coc_px;
   double w_coc = ImportanceOptions{}.w_coc, w_rgb = ImportanceOptions{}.w_rgb;
+  double coc_threshold = 0, rgb_threshold = 0;
   float max_radiance = KernelOptions{}.max_radiance;
   int threads = 0;
 };

@@ -82,7 +82,8 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
 
     const Stopwatch detect;
     const Pending pending{frame, state_, pending_, *core_.kernels, core_.sanitiser};
-    const Changes changes = find_changes(frame, coc, core_.kernels->coc(), core_.sanitiser, state_, pending_);
+    const Changes changes =
+        find_changes(frame, coc, core_.kernels->coc(), core_.sanitiser, state_, core_.options.thresholds, pending_);
     if (!changes.opaque && lanes_ == kOpaqueLanes) widen_lanes();
     const std::vector<TileWork> selected = select(changes, pending);
     FilterCore::report(changes.findings, stats_);
@@ -99,7 +100,9 @@ const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFun
     const TileGrid grid{core_.window.width(), core_.window.height()};
     waiting_.update(grid, stats_.left_over > 0 ? without(changes.tiles, done) : std::vector<TileWork>{});
     const Window reached = core_.reached(changes.findings);
-    result_window_ = stats_.left_over > 0 ? unite(result_window_, reached) : reached;
+    // What was left over or exempt may show what this frame no longer has.
+    const bool behind = stats_.left_over > 0 || core_.options.thresholds.any();
+    result_window_ = behind ? unite(result_window_, reached) : reached;
     if (was_incomplete) count_uncommitted();
     resolve_dirty();
     if (uncommitted_ > 0) show_uncommitted(frame);

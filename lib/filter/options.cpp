@@ -53,6 +53,7 @@ Budget Budget::parse(std::string_view text) {
 
 void validate(const FilterOptions& options) {
   validate(options.importance);
+  validate(options.thresholds);
   if (options.threads < 0 || options.threads > 1024) {
     throw Error(ErrorCode::usage, "--threads must lie between 1 and 1024, or be 0 for all processors");
   }

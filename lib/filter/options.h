@@ -29,6 +29,7 @@ struct Budget {
 struct FilterOptions {
   KernelOptions kernel;
   ImportanceOptions importance;
+  ChangeThresholds thresholds;            // IncrementalFilter only; linear takes every change
   Budget budget;                          // IncrementalFilter only; its first frame is done in full
   std::optional<SampleType> output_type;  // of the result; nullopt: the frame's own
   int threads = 0;                        // >= 1, or 0 for all processors

@@ -57,7 +57,7 @@ Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const F
 
   if (next != nullptr && next->window() == frame.window() && next->colour.type() == frame.colour.type()) {
     std::vector<std::int16_t> pending(frame.window().pixels());
-    const Changes changes = find_changes(*next, next_coc, kernels.coc(), sanitiser, state, pending);
+    const Changes changes = find_changes(*next, next_coc, kernels.coc(), sanitiser, state, options.thresholds, pending);
     plan.changed_share = static_cast<double>(changes.pixels) / static_cast<double>(frame.window().pixels());
     plan.next_edges = count_edges(changes.tiles, {*next, state, pending, kernels, sanitiser}).written;
   }

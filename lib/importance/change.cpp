@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "importance/distance.h"
+
 namespace pullfocus {
 
 namespace {
@@ -41,8 +43,14 @@ struct TileRow {
 template <SampleType type>
 class Detector {
  public:
-  Detector(const SegmentIngest<type>& ingest, const SourceState& state, std::vector<std::int16_t>& pending)
-      : ingest_(ingest), state_(state), pending_(pending), grid_(grid_of(state.colour.window())) {}
+  Detector(const SegmentIngest<type>& ingest, const CocTable& table, const SourceState& state,
+           const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending)
+      : ingest_(ingest),
+        table_(table),
+        state_(state),
+        thresholds_(thresholds),
+        pending_(pending),
+        grid_(grid_of(state.colour.window())) {}
 
   void run(int tile, TileRow& row) const {
     TileWork work{tile, 0, {}};
@@ -71,6 +79,7 @@ class Detector {
       Pixel<type> pixels[kTileWidth];
       ingest_.sanitised(x, y, n, pixels, row.findings);
       for (int i = 0; i < n; ++i) changed |= std::uint64_t{!(pixels[i] == old[i])} << i;
+      if (thresholds_.any()) changed = beyond_thresholds(changed, pixels, old, index, committed);
       for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
     }
     if (changed != 0) {
@@ -83,8 +92,23 @@ class Detector {
     return changed;
   }
 
+  std::uint64_t beyond_thresholds(std::uint64_t changed, const Pixel<type>* is, const Pixel<type>* was,
+                                  const std::int16_t* index, const std::int16_t* committed) const {
+    std::uint64_t beyond = 0;
+    for_each_pixel(changed, [&](int i) {
+      const bool exempt = committed[i] != kNeverCommitted &&
+                          coc_distance(table_, index[i], committed[i]) <= thresholds_.coc_px &&
+                          colour_distance<type>(is[i], was[i]) <= thresholds_.rgb &&
+                          alpha_distance<type>(is[i], was[i]) <= thresholds_.rgb;
+      beyond |= std::uint64_t{!exempt} << i;
+    });
+    return beyond;
+  }
+
   const SegmentIngest<type>& ingest_;
+  const CocTable& table_;
   const SourceState& state_;
+  const ChangeThresholds& thresholds_;
   std::vector<std::int16_t>& pending_;
   const TileGrid grid_;
 };
@@ -92,12 +116,12 @@ class Detector {
 }  // namespace
 
 Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
-                     const SourceState& state, std::vector<std::int16_t>& pending) {
+                     const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending) {
   const TileGrid grid = grid_of(state.colour.window());
   std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
   dispatch(frame.colour.type(), [&]<SampleType type>() {
     const SegmentIngest<type> ingest(frame, coc, table, sanitiser);
-    const Detector<type> detector(ingest, state, pending);
+    const Detector<type> detector(ingest, table, state, thresholds, pending);
     tbb::parallel_for(0, grid.rows(), [&](int r) {
       for (int c = 0; c < grid.columns(); ++c) {
         detector.run(r * grid.columns() + c, rows[static_cast<std::size_t>(r)]);

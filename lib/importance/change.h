@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "importance/importance.h"
 #include "importance/ingest.h"
 #include "scatter/kernel_table.h"
 #include "scatter/state.h"
@@ -22,9 +23,10 @@ struct Changes {
 
 // Compares `frame` with `state` (same window and sample type), tile by tile. `pending` (one index per pixel,
 // row by row) receives the new indices of the tile rows that hold changed pixels, and keeps its values
-// elsewhere. Threads: runs in the calling task arena; the result does not depend on their number.
+// elsewhere. Pixels whose change is within `thresholds` count as unchanged. Threads: runs in the calling task arena;
+// the result does not depend on their number.
 Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
-                     const SourceState& state, std::vector<std::int16_t>& pending);
+                     const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending);
 
 // Takes over the whole frame into `state`, without looking at what it held. Fills `max_index` with the
 // largest |index| of every tile.

@@ -15,12 +15,23 @@ int bucket_of(double h) noexcept {
   return 2 + static_cast<int>((std::bit_cast<std::uint64_t>(h) >> 49) - first);
 }
 
+namespace {
+
+void require_not_negative(double value, const char* option) {
+  if (value >= 0 && std::isfinite(value)) return;
+  throw Error(ErrorCode::usage, std::string(option) + " must be a finite number of at least 0");
+}
+
+}  // namespace
+
 void validate(const ImportanceOptions& options) {
-  const auto refuse = [](const char* option) {
-    throw Error(ErrorCode::usage, std::string(option) + " must be a finite number of at least 0");
-  };
-  if (!(options.w_coc >= 0 && std::isfinite(options.w_coc))) refuse("--w-coc");
-  if (!(options.w_rgb >= 0 && std::isfinite(options.w_rgb))) refuse("--w-rgb");
+  require_not_negative(options.w_coc, "--w-coc");
+  require_not_negative(options.w_rgb, "--w-rgb");
+}
+
+void validate(const ChangeThresholds& thresholds) {
+  require_not_negative(thresholds.coc_px, "--coc-threshold");
+  require_not_negative(thresholds.rgb, "--rgb-threshold");
 }
 
 }  // namespace pullfocus

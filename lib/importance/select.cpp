@@ -7,6 +7,8 @@
 #include <functional>
 #include <utility>
 
+#include "importance/distance.h"
+
 namespace pullfocus {
 
 namespace {
@@ -26,23 +28,16 @@ class PixelChange {
     const std::uint32_t at = position(x, y);
     const int was = pending_.state.index[at], is = pending_.index[at];
     if (was == kNeverCommitted) return kBuckets;  // before all others
-    const CocTable& coc = pending_.kernels.coc();
-    const double h_coc = std::fabs(std::copysign(coc.diameter(is), is) - std::copysign(coc.diameter(was), was));
-    return bucket_of(options_.w_coc * h_coc + options_.w_rgb * colour_distance(x, y));
+    const double h_coc = coc_distance(pending_.kernels.coc(), was, is);
+    return bucket_of(options_.w_coc * h_coc + options_.w_rgb * colour_change(x, y));
   }
 
  private:
-  double colour_distance(int x, int y) const noexcept {
+  double colour_change(int x, int y) const noexcept {
     const auto load = [&](const ColourImage& image) {
       return load_pixel<type>(image.pixel(window_.x0 + x, window_.y0 + y));
     };
-    const Pixel<type> was = load(pending_.state.colour), is = pending_.sanitiser(load(pending_.frame.colour));
-    double sum = 0;
-    for (int c = 0; c < 3; ++c) {
-      const double d = static_cast<double>(sample_value(is.rgba[c])) - static_cast<double>(sample_value(was.rgba[c]));
-      sum += d * d;
-    }
-    return std::sqrt(sum);
+    return colour_distance<type>(load(pending_.state.colour), pending_.sanitiser(load(pending_.frame.colour)));
   }
 
   const Pending& pending_;

@@ -73,6 +73,8 @@ TEST_F(BadInput, WrongOptionsAreNamedAndExitWithTwo) {
                {"--budget 101%", "--budget"},
                {"--budget many", "--budget"},
                {"--w-coc -1", "--w-coc"},
+               {"--coc-threshold -1", "--coc-threshold"},
+               {"--rgb-threshold inf", "--rgb-threshold"},
                {"--coc-step 2", "--coc-step"},
                {"--max-coc 501", "--max-coc"},
                {"--max-coc 0", "--max-coc"},
