@@ -28,7 +28,7 @@
 //   filter errors      pullfocus::Error, whose text names what is wrong and what to do; a frame is refused
 //   before it changes
 //               anything
-//   memory      about 63 bytes a pixel for opaque half input, 97 for float input with alpha (make_plan()
+//   memory      about 64 bytes a pixel for opaque half input, 96 for float input with alpha (make_plan()
 //   tells)
 #pragma once
 
