@@ -185,8 +185,7 @@ void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<st
             const std::vector<TileWork>& tiles, SourceState& state) {
   const TileGrid grid = grid_of(state.colour.window());
   dispatch(frame.colour.type(), [&]<SampleType type>() {
-    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
-      const TileWork& work = tiles[t];
+    const auto commit_tile = [&](const TileWork& work) {
       for (int i = 0; i < kTileHeight; ++i) {
         if (work.mask.rows[i] == 0) continue;
         const int x = grid.x(work.tile), y = grid.y(work.tile) + i;
@@ -197,6 +196,9 @@ void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<st
           state.index[at(grid, x + p, y)] = pending[at(grid, x + p, y)];
         });
       }
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), kTilesTogether), [&](const auto& range) {
+      for (std::size_t t = range.begin(); t < range.end(); ++t) commit_tile(tiles[t]);
     });
   });
 }

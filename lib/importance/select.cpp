@@ -210,13 +210,15 @@ void WaitingTimes::clear() noexcept {
 EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending) {
   const TileGrid grid = grid_of(pending);
   std::vector<EdgeCount> counts(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
-    for_each_tile_pixel(grid, tiles[t], [&](int, int, int x, int y) {
-      const EdgeCount pixel =
-          edges_of_pixel(pending, static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + x);
-      counts[t].written += pixel.written;
-      counts[t].committed += pixel.committed;
-    });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), kTilesTogether), [&](const auto& range) {
+    for (std::size_t t = range.begin(); t < range.end(); ++t) {
+      for_each_tile_pixel(grid, tiles[t], [&](int, int, int x, int y) {
+        const EdgeCount pixel =
+            edges_of_pixel(pending, static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + x);
+        counts[t].written += pixel.written;
+        counts[t].committed += pixel.committed;
+      });
+    }
   });
   EdgeCount sum;
   for (const EdgeCount& count : counts) {
