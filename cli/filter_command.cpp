@@ -37,7 +37,7 @@ Run add_filter_command(CLI::App& app) {
       ->group(group);
 
   return [a] {
-    filter_options(a->filter, 1);  // before any thread or file
+    check_filter_options(a->filter);  // before any thread or file
     use_threads(a->filter.threads);
     return FilterRun(a->input, a->camera, a->filter, a->run).run();
   };

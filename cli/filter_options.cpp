@@ -1,6 +1,8 @@
 #include "filter_options.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 
 #include "image/error.h"
 
@@ -12,19 +14,37 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
       ->group(group)
       ->capture_default_str();
   app.add_option("--visibility", a.visibility, "none: plain scatter")->group(group)->capture_default_str();
-  app.add_option("--budget", a.budget, "share (15%) or number (200000) of changed pixels to update a frame")
+  app.add_option("--budget", a.budget,
+                 "share (15%) or number (200000) of changed pixels to update a frame, or time for it (40ms)")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--w-coc", a.w_coc, "importance of a change of CoC, per pixel of diameter")
+  app.add_option(
+         "--order", a.order,
+         "what comes first under a budget: gain (most visible error removed), fearing (weighted change) or random")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--w-rgb", a.w_rgb, "importance of a change of colour, linear RGB")
+  app.add_option("--w-coc", a.w_coc, "--order fearing: importance of a change of CoC, per pixel of diameter")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--coc-threshold", a.coc_threshold, "leave changes of CoC up to so many pixels of diameter alone")
+  app.add_option("--w-rgb", a.w_rgb, "--order fearing: importance of a change of colour")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--buckets", a.buckets, "--order fearing: number of levels of importance")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--colour-distance", a.colour_distance, "for importance: rgb (linear RGB) or cieluv")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option(
+         "--coc-threshold", a.coc_threshold,
+         "leave changes of CoC up to so many pixels of diameter, or F/1000 (a share of the focal length), alone")
       ->group(group)
       ->capture_default_str();
   app.add_option("--rgb-threshold", a.rgb_threshold, "leave changes of colour (linear RGB) up to this alone")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--error-bound", a.error_bound,
+                 "let every output sample differ from the exact one by so much (linear): leaves small changes alone")
       ->group(group)
       ->capture_default_str();
   app.add_option("--coc-step", a.coc_step,
@@ -46,11 +66,38 @@ Method parse_method(const std::string& text) {
   throw Error(ErrorCode::usage, "--method '" + text + "' is not known: use incremental or linear");
 }
 
-FilterOptions filter_options(const FilterArguments& a, double pixel_aspect) {
+namespace {
+
+// Pixels, or "F/N": the focal length as a length on the picture, divided by N (Fearing 1996, section 4.3: F/1000).
+double coc_threshold(const std::string& text, const std::optional<double>& focal_length_px) {
+  const bool share = text.starts_with("F/");
+  const char* begin = text.data() + (share ? 2 : 0);
+  const char* end = text.data() + text.size();
+  double value = 0;
+  const auto parsed = std::from_chars(begin, end, value);
+  if (parsed.ec != std::errc{} || parsed.ptr != end || !std::isfinite(value) || (share ? value <= 0 : value < 0)) {
+    throw Error(ErrorCode::usage, "--coc-threshold '" + text + "' is neither a number of pixels, such as 0.5, nor a " +
+                                      "share of the focal length, such as F/1000");
+  }
+  if (!share) return value;
+  if (!focal_length_px) {
+    throw Error(ErrorCode::usage, "--coc-threshold " + text + ": the depth is a CoC diameter, so there is no focal " +
+                                      "length: give pixels");
+  }
+  return *focal_length_px / value;
+}
+
+}  // namespace
+
+void check_filter_options(const FilterArguments& arguments) { filter_options(arguments, {1, {}, 1}); }
+
+FilterOptions filter_options(const FilterArguments& a, const ShotFacts& facts) {
   FilterOptions options;
-  options.kernel = {a.coc_step, a.max_coc, pixel_aspect, a.max_radiance};
-  options.importance = {a.w_coc, a.w_rgb};
-  options.thresholds = {a.coc_threshold, a.rgb_threshold};
+  options.kernel = {a.coc_step, a.max_coc, facts.pixel_aspect, a.max_radiance};
+  options.importance = {parse_order(a.order), a.w_coc, a.w_rgb, a.buckets,
+                        ColourMetric(parse_colour_distance(a.colour_distance), facts.chromaticities)};
+  options.thresholds = {coc_threshold(a.coc_threshold, facts.focal_length_px), a.rgb_threshold};
+  options.error_bound = a.error_bound;
   options.budget = Budget::parse(a.budget);
   options.threads = a.threads;
   if (a.output_type == "half") {

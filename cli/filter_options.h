@@ -14,9 +14,11 @@ namespace pullfocus::cli {
 
 struct FilterArguments {
   std::string method = "incremental", visibility = "none", budget = "100%", output_type;
+  std::string order{name(Order::gain)}, colour_distance{name(ColourDistance::rgb)}, coc_threshold = "0";
   double coc_step = KernelOptions{}.coc_step, max_coc = KernelOptions{}.max_coc_px;
   double w_coc = ImportanceOptions{}.w_coc, w_rgb = ImportanceOptions{}.w_rgb;
-  double coc_threshold = 0, rgb_threshold = 0;
+  int buckets = ImportanceOptions{}.buckets;
+  double rgb_threshold = 0, error_bound = 0;
   float max_radiance = KernelOptions{}.max_radiance;
   int threads = 0;
 };
@@ -25,7 +27,17 @@ void add_filter_options(CLI::App& app, FilterArguments& arguments);
 enum class Method { incremental, linear };
 Method parse_method(const std::string& text);  // throws Error(usage)
 
-// Throws Error(usage). `pixel_aspect` comes from the files.
-FilterOptions filter_options(const FilterArguments& arguments, double pixel_aspect);
+// What the options depend on beside themselves.
+struct ShotFacts {
+  double pixel_aspect = 1;
+  Chromaticities chromaticities;
+  std::optional<double> focal_length_px;  // of the first frame, as a length on the picture; unset: there is no lens
+};
+
+// Throws Error(usage).
+FilterOptions filter_options(const FilterArguments& arguments, const ShotFacts& facts);
+
+// Throws what filter_options() throws of the options alone: before any file is touched.
+void check_filter_options(const FilterArguments& arguments);
 
 }  // namespace pullfocus::cli

@@ -50,10 +50,10 @@ FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera,
     : arguments_(run),
       kind_(parse_output_kind(run.output_kind)),
       compression_(compression_of(run)),
-      shot_((filter_options(filter, 1), input), camera,
+      shot_((check_filter_options(filter), input), camera,
             run.skip_bad_frames ? exr::BadFrames::keep : exr::BadFrames::fail),
       names_(output_name(run.output), shot_.sequence().pattern, shot_.frame_numbers()),
-      options_(filter_options(filter, static_cast<double>(shot_.sequence().first.pixel_aspect))),
+      options_(filter_options(filter, shot_.facts())),
       method_(filter.method),
       stats_((prepare_folder(names_, run.make_folder), run.stats)) {
   const exr::Sequence& sequence = shot_.sequence();

@@ -134,13 +134,13 @@ void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction&
 }
 
 int inspect(const Arguments& a) {
-  filter_options(a.filter, 1);
+  check_filter_options(a.filter);
   use_threads(a.filter.threads);
   const Shot shot(a.input, a.camera, exr::BadFrames::fail);
   const auto& frames = shot.sequence().frames;
   ShotFrame first;
   shot.read(frames[0], first, false);
-  const FilterOptions options = filter_options(a.filter, static_cast<double>(first.file.pixel_aspect));
+  const FilterOptions options = filter_options(a.filter, shot.facts());
   const KernelTable kernels(options.kernel);
   say_files(shot, first);
   std::fflush(stdout);

@@ -53,6 +53,16 @@ Shot::Shot(const InputArguments& input, const CameraArguments& camera, exr::BadF
   if (camera_.focus_pixel()) camera_.set_focus(depth_at_focus_pixel(*camera_.focus_pixel()));
 }
 
+ShotFacts Shot::facts() const {
+  const exr::FileInfo& first = sequence_.first;
+  ShotFacts facts{static_cast<double>(first.pixel_aspect), first.chromaticities, {}};
+  if (camera_.depth_kind() != DepthKind::coc) {
+    const ThinLens lens = camera_.lens(sequence_.frames.front().frame, first).lens;
+    facts.focal_length_px = lens.focal_length_mm * pixels_per_mm(lens, raster_of(first));
+  }
+  return facts;
+}
+
 std::vector<int> Shot::frame_numbers() const {
   std::vector<int> numbers;
   for (const auto& frame : sequence_.frames) numbers.push_back(frame.frame);

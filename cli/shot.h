@@ -9,6 +9,7 @@
 #include "exr/reader.h"
 #include "exr/sequence.h"
 #include "exr/state_window.h"
+#include "filter_options.h"
 
 namespace CLI {
 class App;
@@ -41,6 +42,7 @@ class Shot {
   const Window& state_window() const noexcept { return state_window_; }
   const Camera& camera() const noexcept { return camera_; }
   std::vector<int> frame_numbers() const;
+  ShotFacts facts() const;  // of the first frame
 
   // Reads frame number `i` of sequence().frames, reusing memory of `out`. Errors name frame and file.
   void read(const exr::SequenceFrame& from, ShotFrame& out, bool with_extra) const;

@@ -41,13 +41,15 @@ void StatsFile::write(const FrameRecord& r) {
   line["left_over"] = s.left_over;
   line["edges"] = s.edges;
   line["resolved"] = s.resolved;
+  line["slices"] = s.slices;
   line["repaired"] = {{"colour", s.repaired_colour},
                       {"depth", s.repaired_depth},
                       {"clamped", s.clamped_radiance},
                       {"outside", r.outside},
                       {"coc", s.clamped_coc}};
   line["ms"] = {{"read", ms(r.read_ms)},       {"detect", ms(s.detect_ms)}, {"scatter", ms(s.scatter_ms)},
-                {"resolve", ms(s.resolve_ms)}, {"filter", ms(s.filter_ms)}, {"write", ms(r.write_ms)}};
+                {"resolve", ms(s.resolve_ms)}, {"filter", ms(s.filter_ms)}, {"overshoot", ms(s.overshoot_ms)},
+                {"write", ms(r.write_ms)}};
   output_->stream() << line.dump() << std::endl;
   if (!output_->stream())
     throw Error(ErrorCode::unwritable, "--stats " + output_->path + ": cannot be written: is the disk full?");

@@ -30,6 +30,13 @@ std::optional<float> number(const Imf::Header& header, const char* name) {
   return attribute ? positive(attribute->value()) : std::nullopt;
 }
 
+Chromaticities to_chromaticities(const Imf::Chromaticities& c) {
+  const auto xy = [](const Imath::V2f& v) {
+    return std::array<double, 2>{static_cast<double>(v.x), static_cast<double>(v.y)};
+  };
+  return {xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
+}
+
 CameraAttributes read_camera(const Imf::Header& header) {
   CameraAttributes camera;
   camera.focus_distance_m = number(header, "focus");
@@ -109,6 +116,7 @@ FileInfo describe_header(const std::string& path, const Imf::Header& header, boo
   info.complete = complete;
   if (Imf::hasMultiView(header)) info.views = Imf::multiView(header);
   info.camera = read_camera(header);
+  if (Imf::hasChromaticities(header)) info.chromaticities = to_chromaticities(Imf::chromaticities(header));
   check_size(info);
   check_tiles(info);
   read_channels(info);

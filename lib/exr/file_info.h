@@ -12,6 +12,7 @@
 
 #include "exr/channels.h"
 #include "image/window.h"
+#include "importance/colour_space.h"
 
 namespace pullfocus::exr {
 
@@ -42,6 +43,7 @@ struct FileInfo {
   bool tiled = false;
   bool complete = true;  // false: still being written, or cut short where the pixels begin
   CameraAttributes camera;
+  Chromaticities chromaticities;  // Rec. 709 where the header says nothing
   Imf::Header header;
 
   ChannelNames channel_names() const;

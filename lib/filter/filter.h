@@ -11,7 +11,8 @@
 
 namespace pullfocus {
 
-// Asked at every slice border, from the thread that called filter(); true ends the call early.
+// Asked at every slice border, from the thread that called filter(); true ends the call early. To stop from another
+// thread, let it read a std::stop_token or an atomic flag.
 using StopRequest = std::function<bool()>;
 
 // One shot at a time; not to be called from two threads at once. Colour is premultiplied, scene-linear RGBA.
@@ -24,6 +25,11 @@ class Filter {
   // budget is served in full. The references returned by this and by result() hold until the next call.
   // Throws Error(usage) for a frame of another window.
   virtual const Stats& filter(const Frame& frame, const CocFunction& coc, const StopRequest& stop = {}) = 0;
+
+  // Goes on with what the last call left over, without a new frame and whatever the percentage or number of the budget:
+  // to the end, or until `stop`, or until a time budget is over. The frame of the last filter() call must still exist,
+  // unchanged. With nothing left over it does nothing. What thresholds exempt stays exempt.
+  virtual const Stats& refine(const StopRequest& stop = {}) = 0;
 
   // The picture after the last call, over the state window; its colour is zero outside result_window().
   virtual const ColourImage& result() const noexcept = 0;

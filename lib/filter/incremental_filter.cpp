@@ -5,18 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "filter/call.h"
 #include "resolve/resolve.h"
 
 namespace pullfocus {
-
-namespace {
-
-std::int64_t count_pixels(const std::vector<TileWork>& tiles) noexcept {
-  return std::accumulate(tiles.begin(), tiles.end(), std::int64_t{0},
-                         [](std::int64_t sum, const TileWork& work) { return sum + work.mask.count(); });
-}
-
-}  // namespace
 
 IncrementalFilter::IncrementalFilter(const Window& state_window, const FilterOptions& options,
                                      std::shared_ptr<const KernelTable> kernels)
@@ -32,6 +24,9 @@ void IncrementalFilter::reset() {
   uncommitted_ = static_cast<std::int64_t>(core_.window.pixels());
   edges_ = 0;
   waiting_.clear();
+  round_ = 0;
+  frame_ = nullptr;
+  left_.clear();
   dirty_.reset(core_.window.width(), core_.window.height());
   result_window_ = {};
   result_ = {};
@@ -72,114 +67,84 @@ void IncrementalFilter::widen_lanes() {
   lanes_ = kAlphaLanes;
 }
 
-const Stats& IncrementalFilter::filter(const Frame& frame_as_given, const CocFunction& coc, const StopRequest& stop) {
-  core_.check(frame_as_given);
+Pending IncrementalFilter::pending() const {
+  return {*frame_, state_, pending_, *core_.kernels, core_.sanitiser, result_, round_};
+}
+
+const Stats& IncrementalFilter::filter(const Frame& frame, const CocFunction& coc, const StopRequest& stop) {
+  core_.check(frame);
   const Stopwatch whole;
+  Call call(core_.options, stop);
   stats_ = {};
   core_.arena.execute([&] {
-    const Frame& frame = in_state_type(frame_as_given);
-    prepare_result(core_.options.output_type.value_or(frame_as_given.colour.type()));
+    frame_ = &in_state_type(frame);
+    ++round_;
+    prepare_result(core_.options.output_type.value_or(frame.colour.type()));
 
     const Stopwatch detect;
-    const Pending pending{frame, state_, pending_, *core_.kernels, core_.sanitiser};
-    const Changes changes =
-        find_changes(frame, coc, core_.kernels->coc(), core_.sanitiser, state_, core_.options.thresholds, pending_);
+    Changes changes = find_changes(*frame_, coc, core_.kernels->coc(), core_.sanitiser, state_, thresholds(), pending_);
     if (!changes.opaque && lanes_ == kOpaqueLanes) widen_lanes();
-    const std::vector<TileWork> selected = select(changes, pending);
+    const std::vector<TileWork> selected = select(changes);
     FilterCore::report(changes.findings, stats_);
     stats_.changed = changes.pixels;
     stats_.detect_ms = detect.ms();
-
-    const Stopwatch scatter;
-    const bool was_incomplete = uncommitted_ > 0;
-    const std::vector<TileWork> done = take_over(selected, pending, stop);
-    stats_.scatter_ms = scatter.ms();
-
-    const Stopwatch resolve;
-    stats_.left_over = stats_.changed - stats_.updated;
-    const TileGrid grid{core_.window.width(), core_.window.height()};
-    waiting_.update(grid, stats_.left_over > 0 ? without(changes.tiles, done) : std::vector<TileWork>{});
-    const Window reached = core_.reached(changes.findings);
-    // What was left over or exempt may show what this frame no longer has.
-    const bool behind = stats_.left_over > 0 || core_.options.thresholds.any();
-    result_window_ = behind ? unite(result_window_, reached) : reached;
-    if (was_incomplete) count_uncommitted();
-    resolve_dirty();
-    if (uncommitted_ > 0) show_uncommitted(frame);
-    stats_.resolve_ms = resolve.ms();
+    reached_ = core_.reached(changes.findings);
+    finish(call, std::move(changes.tiles), selected);
   });
   stats_.filter_ms = whole.ms();
   return stats_;
 }
 
-std::vector<TileWork> IncrementalFilter::select(const Changes& changes, const Pending& pending) const {
+const Stats& IncrementalFilter::refine(const StopRequest& stop) {
+  const Stopwatch whole;
+  Call call(core_.options, stop);
+  stats_ = {};
+  if (left_.empty()) return stats_;
+  core_.arena.execute([&] {
+    ++round_;
+    stats_.changed = count_pixels(left_);
+    const std::vector<TileWork> selected = left_;
+    finish(call, std::move(left_), selected);
+  });
+  stats_.filter_ms = whole.ms();
+  return stats_;
+}
+
+ChangeThresholds IncrementalFilter::thresholds() const noexcept {
+  ChangeThresholds thresholds = core_.options.thresholds;
+  if (core_.options.error_bound > 0) thresholds.channel = core_.options.error_bound;
+  return thresholds;
+}
+
+void IncrementalFilter::finish(Call& call, std::vector<TileWork> changed, const std::vector<TileWork>& selected) {
+  const Stopwatch scatter;
+  const bool was_incomplete = uncommitted_ > 0;
+  const std::vector<TileWork> done = take_over(call, selected);
+  stats_.scatter_ms = scatter.ms();
+
+  const double before_resolve = call.timed() ? call.elapsed_ms() : 0;
+  const Stopwatch resolve;
+  stats_.left_over = stats_.changed - stats_.updated;
+  left_ = stats_.left_over > 0 ? without(changed, done) : std::vector<TileWork>{};
+  waiting_.update({core_.window.width(), core_.window.height()}, left_);
+  // What was left over or exempt may show what this frame no longer has.
+  const bool behind = stats_.left_over > 0 || thresholds().any();
+  result_window_ = behind ? unite(result_window_, reached_) : reached_;
+  if (was_incomplete) count_uncommitted();
+  resolve_dirty();
+  if (uncommitted_ > 0) show_uncommitted(*frame_);
+  stats_.resolve_ms = resolve.ms();
+  if (call.timed()) {
+    if (stats_.mode != ScatterMode::rebuild) pace_.resolved(stats_.resolved, call.elapsed_ms() - before_resolve);
+    stats_.overshoot_ms = std::max(-call.left_ms(), 0.);
+  }
+}
+
+std::vector<TileWork> IncrementalFilter::select(const Changes& changes) const {
   const bool first = uncommitted_ == static_cast<std::int64_t>(core_.window.pixels());
   const Budget& budget = core_.options.budget;
   const Allowance allowance{first ? changes.pixels : budget.pixels(changes.pixels), budget.longest_wait()};
-  return select_pixels(changes, pending, core_.options.importance, waiting_, allowance);
-}
-
-std::vector<TileWork> IncrementalFilter::take_over(const std::vector<TileWork>& selected, const Pending& pending,
-                                                   const StopRequest& stop) {
-  if (!stop) {
-    const EdgeCount edges = count_edges(selected, pending);
-    if (rebuild_is_cheaper(edges, count_pixels(selected))) {
-      rebuild(selected, edges, pending);
-    } else {
-      update(selected, edges, pending);
-    }
-    return selected;
-  }
-  std::vector<TileWork> done;
-  for (const auto& slice : cut_slices(selected, pending, core_.options.importance, core_.options.slice_edges)) {
-    if (stop()) break;
-    update(slice, count_edges(slice, pending), pending);
-    done.insert(done.end(), slice.begin(), slice.end());
-  }
-  return merged(std::move(done));
-}
-
-// Edges decide. Changed pixels lie scattered and convert two colours, hence a quarter more an edge than a
-// rebuild.
-bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept {
-  const std::int64_t edges_after = edges_ + edges.committed;
-  const auto pixels = static_cast<std::int64_t>(core_.window.pixels());
-  return updated > 0 && 5 * edges.written + 32 * updated > 4 * edges_after + 32 * pixels;
-}
-
-void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending) {
-  if (selected.empty()) return;
-  const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
-  core_.scatter.run(selected, {&state_, &pending.frame, pending_.data(), &core_.sanitiser}, lanes_, core_.threads,
-                    [&](int y, int x0, int x1, const Accumulator* values) {
-                      Accumulator* sums = &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes];
-                      const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
-                      for (std::size_t i = 0; i < n; ++i) sums[i] += values[i];
-                      dirty_.mark(y, x0, x1);
-                    });
-  commit(pending.frame, core_.sanitiser, pending_, selected, state_);
-  edges_ += edges.committed;
-  stats_.edges += edges.written;
-  stats_.updated += count_pixels(selected);
-  stats_.mode = ScatterMode::incremental;
-}
-
-void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending) {
-  edges_ += edges.committed;
-  commit(pending.frame, core_.sanitiser, pending_, selected, state_);
-  std::fill(sums_.begin(), sums_.end(), Accumulator{0});
-  const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
-  core_.scatter.run(whole_state(state_), {&state_}, lanes_, core_.threads,
-                    [&](int y, int x0, int x1, const Accumulator* values) {
-                      const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
-                      std::copy_n(values, n, &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes]);
-                      resolve_span(values, lanes_, x0, x1, y, state_.colour, result_);
-                    });
-  dirty_.reset(core_.window.width(), core_.window.height());
-  stats_.edges += edges_;
-  stats_.updated += count_pixels(selected);
-  stats_.resolved += static_cast<std::int64_t>(core_.window.pixels());
-  stats_.mode = ScatterMode::rebuild;
+  return select_pixels(changes, pending(), core_.options.importance, waiting_, allowance);
 }
 
 void IncrementalFilter::count_uncommitted() {

@@ -2,8 +2,8 @@
 //
 // Stage          reads                          writes
 // find_changes   frame, committed state         masks of changed pixels, their new indices
-// select         masks, importance              the set the budget affords, in slices if the call can be
-// stopped scatter        committed state, frame         destination bands: old contributions out, new ones in
+// select         masks, importance              the set the budget affords, in slices if the call can be stopped
+// scatter        committed state, frame         destination bands: old contributions out, new ones in
 // integrate      bands                          accumulators, dirty spans
 // commit         frame                          committed state
 // resolve        accumulators, dirty spans      result
@@ -16,7 +16,9 @@
 #include <span>
 
 #include "filter/core.h"
+#include "filter/pace.h"
 #include "importance/select.h"
+#include "importance/slices.h"
 #include "resolve/spans.h"
 
 namespace pullfocus {
@@ -27,6 +29,7 @@ class IncrementalFilter final : public Filter {
                     std::shared_ptr<const KernelTable> kernels = nullptr);
 
   const Stats& filter(const Frame& frame, const CocFunction& coc, const StopRequest& stop = {}) override;
+  const Stats& refine(const StopRequest& stop = {}) override;
   const ColourImage& result() const noexcept override { return result_; }
   const Window& result_window() const noexcept override { return result_window_; }
   void reset() override;
@@ -37,16 +40,22 @@ class IncrementalFilter final : public Filter {
   int lanes() const noexcept { return lanes_; }
 
  private:
+  class Call;
+
   const Frame& in_state_type(const Frame& frame);
   void prepare_result(SampleType type);
   void widen_lanes();
-  std::vector<TileWork> select(const Changes& changes, const Pending& pending) const;
-  // Scatters and commits the selection, slice by slice if the call can be stopped; returns what was committed.
-  std::vector<TileWork> take_over(const std::vector<TileWork>& selected, const Pending& pending,
-                                  const StopRequest& stop);
+  Pending pending() const;
+  ChangeThresholds thresholds() const noexcept;
+  std::vector<TileWork> select(const Changes& changes) const;
+  void finish(Call& call, std::vector<TileWork> changed, const std::vector<TileWork>& selected);
+  // Scatters and commits the selection, in slices if the call can be stopped; returns what was committed.
+  std::vector<TileWork> take_over(Call& call, const std::vector<TileWork>& selected);
+  std::vector<TileWork> take_over_in_slices(Call& call, const std::vector<TileWork>& selected);
+  std::int64_t pixels_to_resolve() const noexcept;
   bool rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept;
-  void update(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending);
-  void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges, const Pending& pending);
+  void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
+  void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges);
   void resolve_dirty();
   void count_uncommitted();
   void show_uncommitted(const Frame& frame);
@@ -57,6 +66,11 @@ class IncrementalFilter final : public Filter {
   std::vector<Accumulator> sums_;
   int lanes_ = kOpaqueLanes;
   WaitingTimes waiting_;
+  Pace pace_;
+  std::uint32_t round_ = 0;       // number of calls
+  const Frame* frame_ = nullptr;  // of the last call, in the state's type
+  Window reached_;                // by that frame
+  std::vector<TileWork> left_;    // what it left over
   std::int64_t uncommitted_ = 0;  // pixels never committed
   std::int64_t edges_ = 0;        // of the committed state
   DirtySpans dirty_;

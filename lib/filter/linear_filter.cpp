@@ -35,10 +35,13 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
     stats_.scatter_ms = scatter.ms();
   });
   stats_.mode = ScatterMode::rebuild;
+  stats_.slices = 1;
   stats_.changed = stats_.updated = stats_.resolved = static_cast<std::int64_t>(core_.window.pixels());
   stats_.filter_ms = whole.ms();
   return stats_;
 }
+
+const Stats& LinearFilter::refine(const StopRequest&) { return stats_ = {}; }
 
 std::unique_ptr<Filter> make_linear_filter(const Window& state_window, const FilterOptions& options,
                                            std::shared_ptr<const KernelTable> kernels) {

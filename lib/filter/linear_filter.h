@@ -12,6 +12,7 @@ class LinearFilter final : public Filter {
 
   // `stop` is not asked: a linear frame is all or nothing.
   const Stats& filter(const Frame& frame, const CocFunction& coc, const StopRequest& stop = {}) override;
+  const Stats& refine(const StopRequest& stop = {}) override;
   const ColourImage& result() const noexcept override { return result_; }
   const Window& result_window() const noexcept override { return result_window_; }
   void reset() override {}

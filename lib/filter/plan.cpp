@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "filter/core.h"
-#include "importance/select.h"
+#include "importance/slices.h"
 
 namespace pullfocus {
 
@@ -59,7 +59,7 @@ Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const F
     std::vector<std::int16_t> pending(frame.window().pixels());
     const Changes changes = find_changes(*next, next_coc, kernels.coc(), sanitiser, state, options.thresholds, pending);
     plan.changed_share = static_cast<double>(changes.pixels) / static_cast<double>(frame.window().pixels());
-    plan.next_edges = count_edges(changes.tiles, {*next, state, pending, kernels, sanitiser}).written;
+    plan.next_edges = count_edges(changes.tiles, {*next, state, pending, kernels, sanitiser, state.colour}).written;
   }
   return plan;
 }

@@ -21,6 +21,7 @@ struct Stats {
   std::int64_t left_over = 0;  // of these, pixels that wait for a later call
   std::int64_t edges = 0;      // run edges written (see scatter/kernel.h)
   std::int64_t resolved = 0;   // result pixels computed
+  std::int64_t slices = 0;     // pieces the work was done in: 1 unless the call could be stopped
 
   std::int64_t repaired_colour = 0;   // pixels with a NaN or infinite sample, taken as 0
   std::int64_t repaired_depth = 0;    // pixels with an invalid depth, taken as background
@@ -29,6 +30,7 @@ struct Stats {
 
   double detect_ms = 0, scatter_ms = 0, resolve_ms = 0;  // rebuilds resolve within scatter_ms
   double filter_ms = 0;                                  // the whole call
+  double overshoot_ms = 0;                               // by which the call missed the end of its time budget
 };
 
 }  // namespace pullfocus

@@ -96,10 +96,11 @@ class Detector {
                                   const std::int16_t* index, const std::int16_t* committed) const {
     std::uint64_t beyond = 0;
     for_each_pixel(changed, [&](int i) {
-      const bool exempt = committed[i] != kNeverCommitted &&
-                          coc_distance(table_, index[i], committed[i]) <= thresholds_.coc_px &&
-                          colour_distance<type>(is[i], was[i]) <= thresholds_.rgb &&
-                          alpha_distance<type>(is[i], was[i]) <= thresholds_.rgb;
+      const bool small = (colour_distance<type>(is[i], was[i]) <= thresholds_.rgb &&
+                          alpha_distance<type>(is[i], was[i]) <= thresholds_.rgb) ||
+                         channel_distance<type>(is[i], was[i]) <= thresholds_.channel;
+      const bool exempt = small && committed[i] != kNeverCommitted &&
+                          coc_distance(table_, index[i], committed[i]) <= thresholds_.coc_px;
       beyond |= std::uint64_t{!exempt} << i;
     });
     return beyond;

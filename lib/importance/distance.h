@@ -1,6 +1,7 @@
 // How far apart two states of a pixel are.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "image/sanitise.h"
@@ -22,6 +23,17 @@ double colour_distance(const Pixel<type>& a, const Pixel<type>& b) noexcept {
 template <SampleType type>
 double alpha_distance(const Pixel<type>& a, const Pixel<type>& b) noexcept {
   return std::fabs(static_cast<double>(sample_value(a.rgba[3])) - static_cast<double>(sample_value(b.rgba[3])));
+}
+
+// The largest change of any channel of linear RGBA.
+template <SampleType type>
+double channel_distance(const Pixel<type>& a, const Pixel<type>& b) noexcept {
+  double largest = 0;
+  for (int c = 0; c < 4; ++c) {
+    const double d = static_cast<double>(sample_value(a.rgba[c])) - static_cast<double>(sample_value(b.rgba[c]));
+    largest = std::max(largest, std::fabs(d));
+  }
+  return largest;
 }
 
 // Of signed table diameters, in pixels.

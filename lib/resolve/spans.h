@@ -1,6 +1,7 @@
 // Which pixels of an image are to be resolved again.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,13 @@ class DirtySpans {
   void mark(int y, int x0, int x1) noexcept {
     std::uint64_t* row = bits_.data() + static_cast<std::size_t>(y) * words_;
     for (int cell = x0 / kCell; cell <= (x1 - 1) / kCell; ++cell) row[cell / 64] |= std::uint64_t{1} << (cell % 64);
+  }
+
+  // Pixels of all dirty cells, those past the right border included.
+  std::int64_t pixels() const noexcept {
+    std::int64_t cells = 0;
+    for (const std::uint64_t word : bits_) cells += std::popcount(word);
+    return cells * kCell;
   }
 
   // Calls visit(x0, x1) for every stretch of dirty columns of row y, and cleans the row.

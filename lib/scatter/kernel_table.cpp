@@ -37,6 +37,19 @@ double largest_overlap(const std::vector<Kernel>& kernels) {
   return sum / static_cast<double>(kWeightUnit);
 }
 
+double area_of(const Kernel& kernel) {
+  double squares = 0;
+  for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
+    const auto edges = kernel.row(dy);
+    for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+      const double weight =
+          static_cast<double>(kernel.levels[kernel.level_behind(edges[e])]) / static_cast<double>(kWeightUnit);
+      squares += weight * weight * (edges[e + 1].dx - edges[e].dx);
+    }
+  }
+  return 1 / squares;
+}
+
 }  // namespace
 
 KernelTable::KernelTable(const KernelOptions& options) : options_(options), coc_(options.coc_step, options.max_coc_px) {
@@ -52,6 +65,7 @@ KernelTable::KernelTable(const KernelOptions& options) : options_(options), coc_
   tbb::parallel_for(0, coc_.size(), [&](int i) {
     kernels_[static_cast<std::size_t>(i)] = disc_kernel(coc_.diameter(i), options.pixel_aspect);
   });
+  for (const Kernel& kernel : kernels_) areas_.push_back(area_of(kernel));
   overlap_bound_ = largest_overlap(kernels_);
   const double limit = std::ldexp(1.0, 23) / overlap_bound_ - 1;
   if (static_cast<double>(options.max_radiance) > limit) {

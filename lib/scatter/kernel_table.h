@@ -1,6 +1,7 @@
 // All kernels of a run: one per signed CoC index.
 #pragma once
 
+#include <cstdlib>
 #include <vector>
 
 #include "scatter/coc_table.h"
@@ -26,12 +27,15 @@ class KernelTable {
   const Kernel& kernel(int signed_index) const noexcept {
     return kernels_[static_cast<std::size_t>(signed_index < 0 ? -signed_index : signed_index)];
   }
+  // Pixels that a flat kernel of the same spread would cover: 1 / sum of squared weights; >= 1.
+  double area(int signed_index) const noexcept { return areas_[static_cast<std::size_t>(std::abs(signed_index))]; }
   double overlap_bound() const noexcept { return overlap_bound_; }  // B in units
 
  private:
   KernelOptions options_;
   CocTable coc_;
   std::vector<Kernel> kernels_;
+  std::vector<double> areas_;  // by |index|
   double overlap_bound_ = 0;
 };
 

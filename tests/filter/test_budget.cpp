@@ -39,8 +39,9 @@ TEST(BudgetText, IsAPercentageOrANumberOfPixels) {
 }
 
 TEST(BudgetText, ThatMeansNeitherIsRefusedByName) {
-  for (const char* text : {"",    "%",  "0%",  "-1%", "100.1%", "101%", "nan%", "inf%",  "15 %", " 15%", "15%%",
-                           "1.5", "-1", "nan", "inf", "1e15",   "40ms", "0x10", "1,000", "12px", "+5",   "all"}) {
+  for (const char* text :
+       {"",    "%",   "0%",   "-1%", "100.1%", "101%",  "nan%",  "inf%", "15 %", " 15%",  "15%%", "1.5", "-1",
+        "nan", "inf", "1e15", "0ms", "-1ms",   "nanms", "40 ms", "40s",  "0x10", "1,000", "12px", "+5",  "all"}) {
     expect_usage_error([&] { Budget::parse(text); }, "--budget");
     expect_usage_error([&] { Budget::parse(text); }, std::string("'") + text + "'");
   }

@@ -22,29 +22,31 @@ using test::options_up_to;
 constexpr auto float32 = SampleType::float32;
 const Window window{0, 0, 150, 70};
 
+constexpr int buckets = 194;
+
 TEST(Buckets, AreMonotoneEightAnOctaveAndBounded) {
-  int before = bucket_of(0);
+  int before = bucket_of(0, buckets);
   EXPECT_EQ(before, 1);
   for (double h = 0x1p-14; h < 0x1p14; h *= 1.003) {
-    const int bucket = bucket_of(h);
+    const int bucket = bucket_of(h, buckets);
     ASSERT_GE(bucket, before);
     ASSERT_LE(bucket, before + 1);
-    ASSERT_LT(bucket, kBuckets);
+    ASSERT_LE(bucket, buckets);
     if (h >= 0x1p-12 && h < 0x1p11) {
-      ASSERT_EQ(bucket_of(2 * h), bucket + 8) << h;
+      ASSERT_EQ(bucket_of(2 * h, buckets), bucket + 8) << h;
     }
     before = bucket;
   }
 }
 
 TEST(Buckets, FirstAndLastHoldWhatLiesBeyond2ToThePlusMinus12) {
-  EXPECT_EQ(bucket_of(std::nextafter(0x1p-12, 0)), 1);
-  EXPECT_EQ(bucket_of(0x1p-12), 2);
-  EXPECT_LT(bucket_of(std::nextafter(0x1p12, 0)), kBuckets - 1);
-  EXPECT_EQ(bucket_of(0x1p12), kBuckets - 1);
-  EXPECT_EQ(bucket_of(1e300), kBuckets - 1);
-  EXPECT_EQ(bucket_of(std::numeric_limits<double>::infinity()), kBuckets - 1);
-  EXPECT_EQ(bucket_of(std::nan("")), 1);
+  EXPECT_EQ(bucket_of(std::nextafter(0x1p-12, 0), buckets), 1);
+  EXPECT_EQ(bucket_of(0x1p-12, buckets), 2);
+  EXPECT_LT(bucket_of(std::nextafter(0x1p12, 0), buckets), buckets);
+  EXPECT_EQ(bucket_of(0x1p12, buckets), buckets);
+  EXPECT_EQ(bucket_of(1e300, buckets), buckets);
+  EXPECT_EQ(bucket_of(std::numeric_limits<double>::infinity(), buckets), buckets);
+  EXPECT_EQ(bucket_of(std::nan(""), buckets), 1);
 }
 
 TEST(Scrambling, IsABijection) {
@@ -90,10 +92,10 @@ class Selection {
 
   // No pixel that was left over lies in a higher bucket than one that was updated.
   void expect_most_important_first(std::int64_t pixels) const {
-    int lowest_committed = kBuckets, highest_left = 0;
+    int lowest_committed = kMostBuckets, highest_left = 0;
     std::int64_t updated = 0;
     for_each_in(window, [&](int x, int y) {
-      const int bucket = bucket_of(importance(x, y));
+      const int bucket = bucket_of(importance(x, y), options_.importance.buckets);
       if (committed(x, y)) {
         ++updated;
         lowest_committed = std::min(lowest_committed, bucket);
@@ -109,7 +111,9 @@ class Selection {
  private:
   static FilterOptions with(double w_coc, double w_rgb, double pixels, int threads) {
     FilterOptions options = options_up_to(60);
-    options.importance = {w_coc, w_rgb};
+    options.importance.order = Order::fearing;
+    options.importance.w_coc = w_coc;
+    options.importance.w_rgb = w_rgb;
     options.budget = {Budget::Kind::count, pixels};
     options.threads = threads;
     return options;
@@ -194,7 +198,7 @@ TEST(Importance, PixelsNeverCommittedComeBeforeAllOthers) {
   FilterOptions options = options_up_to(4);
   options.slice_edges = 1;
   options.budget = {Budget::Kind::count, 200};
-  options.importance = {0, 1};
+
   IncrementalFilter filter(window, options);
   int slices_left = 20;
   const std::int64_t committed = filter

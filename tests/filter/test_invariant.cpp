@@ -32,8 +32,12 @@ FilterOptions options_for(const Case& c) {
 
 Budget random_budget(std::mt19937& random) {
   Budget budget;
-  switch (std::uniform_int_distribution<int>(0, 3)(random)) {
+  switch (std::uniform_int_distribution<int>(0, 4)(random)) {
     case 0:
+      return budget;
+    case 2:
+      budget.kind = Budget::Kind::time;
+      budget.amount = std::uniform_int_distribution<int>(1, 40)(random);
       return budget;
     case 1:
       budget.kind = Budget::Kind::count;
@@ -43,6 +47,13 @@ Budget random_budget(std::mt19937& random) {
       budget.amount = std::uniform_int_distribution<int>(1, 100)(random);
       return budget;
   }
+}
+
+constexpr Order kOrders[] = {Order::gain, Order::fearing, Order::random};
+
+// Every look at it takes a millisecond, so that time budgets end in repeatable places.
+Clock fake_clock() {
+  return [ms = 0.]() mutable { return ms += 1; };
 }
 
 class Invariant : public testing::TestWithParam<Case> {};
@@ -56,6 +67,8 @@ TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndS
     options.budget = random_budget(shot.random());
     options.slice_edges = 1 + static_cast<std::int64_t>(shot.random()() % 3000);
     options.threads = 1 + static_cast<int>(seed % 4);
+    options.importance.order = kOrders[seed % 3];
+    options.clock = fake_clock();
     IncrementalFilter filter(c.window, options, kernels);
     CocFunction coc = test::random_lens(shot.random(), c.largest_px);
     for (int frame = 0; frame < 8; ++frame) {
@@ -65,10 +78,19 @@ TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndS
       const bool stoppable = shot.random()() % 2;
       const Stats& stats =
           filter.filter(shot.frame(), coc, stoppable ? StopRequest([&] { return slices_left-- == 0; }) : StopRequest());
-      ASSERT_EQ(stats.changed, stats.updated + stats.left_over);
-      ASSERT_EQ(stats.mode == ScatterMode::unchanged, stats.updated == 0);
-      const auto expected = test::exact_sums(filter.committed(), *kernels, filter.lanes());
-      ASSERT_TRUE(std::ranges::equal(filter.accumulators(), expected)) << "seed " << seed << ", frame " << frame;
+      const auto expect_invariant = [&] {
+        ASSERT_EQ(stats.changed, stats.updated + stats.left_over);
+        ASSERT_EQ(stats.mode == ScatterMode::unchanged, stats.updated == 0);
+        const auto expected = test::exact_sums(filter.committed(), *kernels, filter.lanes());
+        ASSERT_TRUE(std::ranges::equal(filter.accumulators(), expected)) << "seed " << seed << ", frame " << frame;
+      };
+      expect_invariant();
+      if (shot.random()() % 3) continue;
+      const std::int64_t left = stats.left_over;
+      slices_left = static_cast<int>(shot.random()() % 3);
+      filter.refine(stoppable ? StopRequest([&] { return slices_left-- == 0; }) : StopRequest());
+      ASSERT_EQ(stats.changed, left);
+      expect_invariant();
     }
   }
 }
@@ -89,8 +111,13 @@ TEST_P(Invariant, IncrementalEqualsLinearBitForBitWheneverNothingIsLeftOver) {
       if (frame > 0) shot.step();
       if (shot.random()() % 3 == 0) coc = test::random_lens(shot.random(), c.largest_px);
       if (shot.random()() % 3 == 0) incremental.filter(shot.frame(), coc, [] { return true; });
-      const Stats stats = incremental.filter(shot.frame(), coc);
-      ASSERT_EQ(stats.left_over, 0);
+      if (shot.random()() % 2) {
+        int slices = static_cast<int>(shot.random()() % 5);
+        incremental.filter(shot.frame(), coc, [&] { return slices-- == 0; });
+        incremental.refine();
+      } else {
+        ASSERT_EQ(incremental.filter(shot.frame(), coc).left_over, 0);
+      }
       linear.filter(shot.frame(), coc);
       ASSERT_EQ(test::difference(incremental.result(), linear.result()), "") << "seed " << seed << " frame " << frame;
       ASSERT_EQ(incremental.result_window(), linear.result_window());
@@ -109,11 +136,14 @@ INSTANTIATE_TEST_SUITE_P(Shots, Invariant,
                                          Case{{0, 0, 65, 33}, 30, SampleType::float32, false, true},
                                          Case{{0, 0, 131, 70}, 14, SampleType::half, true, true}));
 
-TEST(Invariance, TheResultDoesNotDependOnTheNumberOfThreads) {
+class OrderOf : public testing::TestWithParam<Order> {};
+
+TEST_P(OrderOf, PicksTheSamePixelsWithAnyNumberOfThreads) {
   const Window window{0, 0, 150, 90};
   FilterOptions options;
   options.kernel.max_coc_px = 30;
   options.budget.amount = 37;
+  options.importance.order = GetParam();
   RandomShot shot(window, 5, SampleType::half, true, true);
   std::vector<std::unique_ptr<IncrementalFilter>> filters;
   for (const int threads : {1, 2, 3, 4}) {
@@ -133,6 +163,9 @@ TEST(Invariance, TheResultDoesNotDependOnTheNumberOfThreads) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Invariance, OrderOf, testing::ValuesIn(kOrders),
+                         [](const auto& order) { return std::string(name(order.param)); });
 
 TEST(Invariance, AFilterThatMeetsHalfAndFloatFramesEqualsLinear) {
   const Window window{0, 0, 40, 25};

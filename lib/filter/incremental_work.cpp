@@ -1,0 +1,109 @@
+// How the incremental filter takes a selection over: at once, in slices, or by a rebuild.
+#include <algorithm>
+
+#include "filter/call.h"
+#include "filter/incremental_filter.h"
+#include "resolve/resolve.h"
+
+namespace pullfocus {
+
+std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector<TileWork>& selected) {
+  if (selected.empty()) return {};
+  const EdgeCount edges = count_edges(selected, pending());
+  const bool cheaper = rebuild_is_cheaper(edges, count_pixels(selected));
+  if (call.can_be_stopped()) {
+    // A rebuild cannot be stopped: it must be sure to end in time.
+    const double rebuild_ms =
+        pace_.scatter_ms(edges_ + edges.committed) + pace_.resolve_ms(static_cast<std::int64_t>(core_.window.pixels()));
+    if (!cheaper || call.has_stop_request() || rebuild_ms > call.left_ms()) {
+      return take_over_in_slices(call, selected);
+    }
+  }
+  if (cheaper) {
+    rebuild(selected, edges);
+  } else {
+    update(selected, edges);
+  }
+  return selected;
+}
+
+// Of a time budget, what resolving will take is kept back. The first slice is done in any case, so that calls with too
+// short a budget get there too.
+std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const std::vector<TileWork>& selected) {
+  constexpr double slice_ms = 1;
+  std::vector<TileWork> done;
+  SliceQueue queue(selected, pending(), core_.options.importance, waiting_);
+  std::int64_t dirty = pixels_to_resolve(), growth = 0;
+  double before = call.timed() ? call.elapsed_ms() : 0;
+  while (!queue.empty() && !call.stopped()) {
+    std::int64_t room = core_.options.slice_edges;
+    if (call.timed()) {
+      const double left = core_.options.budget.amount - before - pace_.resolve_ms(dirty + growth);
+      if (left <= 0 && stats_.slices > 0) break;
+      room = std::min(room, pace_.edges_in(std::min(left, slice_ms)));
+    }
+    const std::vector<TileWork> slice = queue.next(room);
+    const EdgeCount edges = count_edges(slice, pending());
+    update(slice, edges);
+    done.insert(done.end(), slice.begin(), slice.end());
+    if (!call.timed()) continue;
+    const double after = call.elapsed_ms();
+    pace_.scattered(edges.written, after - before);
+    before = after;
+    const std::int64_t now_dirty = pixels_to_resolve();
+    growth = now_dirty - dirty;
+    dirty = now_dirty;
+  }
+  return merged(std::move(done));
+}
+
+// Where pixels have never been committed, all of them will be resolved or shown.
+std::int64_t IncrementalFilter::pixels_to_resolve() const noexcept {
+  return uncommitted_ > 0 ? static_cast<std::int64_t>(core_.window.pixels()) : dirty_.pixels();
+}
+
+// Edges decide. Changed pixels lie scattered and convert two colours, hence a quarter more an edge than a
+// rebuild.
+bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept {
+  const std::int64_t edges_after = edges_ + edges.committed;
+  const auto pixels = static_cast<std::int64_t>(core_.window.pixels());
+  return updated > 0 && 5 * edges.written + 32 * updated > 4 * edges_after + 32 * pixels;
+}
+
+void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges) {
+  const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
+  core_.scatter.run(selected, {&state_, frame_, pending_.data(), &core_.sanitiser}, lanes_, core_.threads,
+                    [&](int y, int x0, int x1, const Accumulator* values) {
+                      Accumulator* sums = &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes];
+                      const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
+                      for (std::size_t i = 0; i < n; ++i) sums[i] += values[i];
+                      dirty_.mark(y, x0, x1);
+                    });
+  commit(*frame_, core_.sanitiser, pending_, selected, state_);
+  edges_ += edges.committed;
+  stats_.edges += edges.written;
+  stats_.updated += count_pixels(selected);
+  stats_.mode = ScatterMode::incremental;
+  ++stats_.slices;
+}
+
+void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges) {
+  edges_ += edges.committed;
+  commit(*frame_, core_.sanitiser, pending_, selected, state_);
+  std::fill(sums_.begin(), sums_.end(), Accumulator{0});
+  const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
+  core_.scatter.run(whole_state(state_), {&state_}, lanes_, core_.threads,
+                    [&](int y, int x0, int x1, const Accumulator* values) {
+                      const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
+                      std::copy_n(values, n, &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes]);
+                      resolve_span(values, lanes_, x0, x1, y, state_.colour, result_);
+                    });
+  dirty_.reset(core_.window.width(), core_.window.height());
+  stats_.edges += edges_;
+  stats_.updated += count_pixels(selected);
+  stats_.resolved += static_cast<std::int64_t>(core_.window.pixels());
+  stats_.mode = ScatterMode::rebuild;
+  ++stats_.slices;
+}
+
+}  // namespace pullfocus

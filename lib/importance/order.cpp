@@ -1,0 +1,107 @@
+#include "importance/order.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "importance/distance.h"
+#include "importance/tile_sets.h"
+
+namespace pullfocus {
+
+namespace {
+
+using Colour = std::array<double, 3>;
+
+double product(const Colour& a, const Colour& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Colour difference(const Colour& a, const Colour& b) noexcept { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+// The change of one pixel; coordinates from the window's corner.
+template <SampleType type>
+class PixelChange {
+ public:
+  PixelChange(const Pending& pending, const ImportanceOptions& options)
+      : pending_(pending), options_(options), window_(pending.frame.window()) {}
+
+  float priority(int x, int y) const noexcept {
+    const std::size_t at = position(x, y);
+    if (pending_.state.index[at] == kNeverCommitted) return kFirstOfAll;
+    switch (options_.order) {
+      case Order::gain:
+        return static_cast<float>(gain(x, y));
+      case Order::fearing:
+        return static_cast<float>(bucket_of(importance(x, y), options_.buckets));
+      case Order::random:
+        return 0;
+    }
+    return 0;
+  }
+
+  double importance(int x, int y) const noexcept {
+    const std::size_t at = position(x, y);
+    const int was = pending_.state.index[at], is = pending_.index[at];
+    if (was == kNeverCommitted) return 0;
+    const Colour change = difference(new_colour(x, y), old_colour(x, y));
+    return options_.w_coc * coc_distance(pending_.kernels.coc(), was, is) +
+           options_.w_rgb * std::sqrt(product(change, change));
+  }
+
+ private:
+  std::size_t position(int x, int y) const noexcept {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width()) + static_cast<std::size_t>(x);
+  }
+
+  double gain(int x, int y) const noexcept {
+    const std::size_t at = position(x, y);
+    const int was = pending_.state.index[at], is = pending_.index[at];
+    const Colour now = new_colour(x, y), then = old_colour(x, y);
+    const Colour change = difference(now, then);
+    const double area_now = pending_.kernels.area(is), area_then = pending_.kernels.area(was);
+    const double of_colour = product(change, change) / std::sqrt(std::min(area_now, area_then));
+    if (was == is) return of_colour;
+    const Colour result = shown(x, y), a = difference(now, result), b = difference(then, result);
+    const double of_kernel =
+        product(a, a) / area_now + product(b, b) / area_then - 2 * product(a, b) / std::max(area_now, area_then);
+    return std::max(of_kernel, of_colour);
+  }
+
+  Colour colour(const Pixel<type>& pixel) const noexcept {
+    const auto sample = [&](int c) { return static_cast<double>(sample_value(pixel.rgba[c])); };
+    return options_.metric({sample(0), sample(1), sample(2)});
+  }
+  Colour old_colour(int x, int y) const noexcept {
+    return colour(load_pixel<type>(pending_.state.colour.pixel(window_.x0 + x, window_.y0 + y)));
+  }
+  Colour new_colour(int x, int y) const noexcept {
+    return colour(pending_.sanitiser(load_pixel<type>(pending_.frame.colour.pixel(window_.x0 + x, window_.y0 + y))));
+  }
+  Colour shown(int x, int y) const noexcept {
+    const auto sample = [&](int c) {
+      return static_cast<double>(pending_.shown.get(window_.x0 + x, window_.y0 + y, c));
+    };
+    return options_.metric({sample(0), sample(1), sample(2)});
+  }
+
+  const Pending& pending_;
+  const ImportanceOptions& options_;
+  const Window window_;
+};
+
+}  // namespace
+
+std::vector<std::vector<float>> priorities(const std::vector<TileWork>& tiles, const Pending& pending,
+                                           const ImportanceOptions& options) {
+  std::vector<std::vector<float>> result(tiles.size());
+  const TileGrid grid = grid_of(pending.frame.window());
+  dispatch(pending.frame.colour.type(), [&]<SampleType type>() {
+    const PixelChange<type> change(pending, options);
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
+      result[t].reserve(static_cast<std::size_t>(tiles[t].mask.count()));
+      for_each_tile_pixel(grid, tiles[t], [&](int, int, int x, int y) { result[t].push_back(change.priority(x, y)); });
+    });
+  });
+  return result;
+}
+
+}  // namespace pullfocus

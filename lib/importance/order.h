@@ -1,0 +1,43 @@
+// Priorities: which of the changed pixels to update first.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "importance/change.h"
+#include "importance/importance.h"
+
+namespace pullfocus {
+
+// Everything a change is judged by.
+struct Pending {
+  const Frame& frame;
+  const SourceState& state;
+  const std::vector<std::int16_t>& index;  // of the frame, where changed
+  const KernelTable& kernels;
+  const Sanitiser& sanitiser;
+  const ColourImage& shown;  // the last result, over the state window
+  std::uint32_t round = 0;   // differs from call to call: ties fall differently each time
+};
+
+// Priority of pixels never committed: they come before all others.
+inline constexpr float kFirstOfAll = std::numeric_limits<float>::infinity();
+
+// A priority >= 0 for every masked pixel of `tiles`, tile after tile, rows top down; larger comes first.
+//
+// Order::fearing: the bucket. Order::random: 0, since ties fall at random. Order::gain: an estimate of the squared
+// error that the pending change leaves in the picture. A pixel of colour I and kernel w adds (I - R) w / W to the
+// result R, W being about 1. With a = I_new - R, b = I_old - R and A = 1 / sum w^2, the area of a kernel,
+//
+//   gain = max(a^2 / A_new + b^2 / A_old - 2 a b / A_larger,  |I_new - I_old|^2 / sqrt(A_smaller))
+//
+// The first term is the squared norm of a w_new - b w_old, concentric kernels overlapping as flat discs do. It misses
+// sharp pixels that R consists of (uncovered background), hence the second. That one alone counts where the kernel
+// stays. Changes of neighbours add up to |dI|^2 a pixel if they are alike and to |dI|^2 / A if they are noise; the
+// square root is halfway, within 3 % of the better choice in both (docs/orders.md).
+//
+// Deterministic, whatever the threads (runs in the calling task arena).
+std::vector<std::vector<float>> priorities(const std::vector<TileWork>& tiles, const Pending& pending,
+                                           const ImportanceOptions& options);
+
+}  // namespace pullfocus

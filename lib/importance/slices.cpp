@@ -1,0 +1,128 @@
+#include "importance/slices.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace pullfocus {
+
+namespace {
+
+// What a tile costs beside its edges, in edges.
+constexpr double kTileEdges = 4000;
+
+std::int64_t edges_of(const KernelTable& kernels, int index) noexcept {
+  return index == kNeverCommitted ? 0 : kernels.kernel(index).edge_count();
+}
+
+// Edges that taking over one pixel writes.
+EdgeCount edges_of_pixel(const Pending& pending, std::size_t at) noexcept {
+  const int was = pending.state.index[at], is = pending.index[at];
+  const std::int64_t before = edges_of(pending.kernels, was), after = edges_of(pending.kernels, is);
+  return {was == is ? after : before + after, after - before};
+}
+
+std::size_t position(const TileGrid& grid, int x, int y) noexcept {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+}
+
+EdgeCount edges_of_tile(const TileGrid& grid, const TileWork& work, const Pending& pending) noexcept {
+  EdgeCount count;
+  for_each_tile_pixel(grid, work, [&](int, int, int x, int y) {
+    const EdgeCount pixel = edges_of_pixel(pending, position(grid, x, y));
+    count.written += pixel.written;
+    count.committed += pixel.committed;
+  });
+  return count;
+}
+
+}  // namespace
+
+EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending) {
+  const TileGrid grid = grid_of(pending.frame.window());
+  std::vector<EdgeCount> counts(tiles.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), kTilesTogether), [&](const auto& range) {
+    for (std::size_t t = range.begin(); t < range.end(); ++t) counts[t] = edges_of_tile(grid, tiles[t], pending);
+  });
+  EdgeCount sum;
+  for (const EdgeCount& count : counts) {
+    sum.written += count.written;
+    sum.committed += count.committed;
+  }
+  return sum;
+}
+
+SliceQueue::SliceQueue(const std::vector<TileWork>& tiles, const Pending& pending, const ImportanceOptions& options,
+                       const WaitingTimes& waiting)
+    : tiles_(tiles), pending_(pending), rows_done_(tiles.size()), left_(tiles.size()) {
+  const TileGrid grid = grid_of(pending.frame.window());
+  const auto of_tile = priorities(tiles, pending, options);
+  std::vector<double> importance(tiles.size());
+  std::vector<int> waited(tiles.size());
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
+    double sum = 0, largest = 0;
+    for (const float priority : of_tile[t]) {
+      sum += static_cast<double>(priority);
+      largest = std::max(largest, static_cast<double>(priority));
+    }
+    const auto edges = static_cast<double>(edges_of_tile(grid, tiles[t], pending).written);
+    importance[t] = options.order == Order::gain ? sum / (edges + kTileEdges) : largest;
+    for_each_tile_pixel(grid, tiles[t], [&](int, int, int x, int y) {
+      waited[t] = std::max(waited[t], waiting.of(position(grid, x, y)));
+    });
+  });
+  const std::uint32_t round = scrambled(pending.round);
+  const auto tie = [&](std::size_t t) { return scrambled(static_cast<std::uint32_t>(tiles[t].tile) ^ round); };
+  const auto more_important = [&](std::size_t a, std::size_t b) {
+    return importance[a] != importance[b] ? importance[a] > importance[b] : tie(a) > tie(b);
+  };
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    by_importance_.push_back(t);
+    if (waited[t] > 0) by_waiting_.push_back(t);
+  }
+  std::sort(by_importance_.begin(), by_importance_.end(), more_important);
+  std::sort(by_waiting_.begin(), by_waiting_.end(), [&](std::size_t a, std::size_t b) {
+    return waited[a] != waited[b] ? waited[a] > waited[b] : more_important(a, b);
+  });
+}
+
+std::int64_t SliceQueue::row_edges(const TileWork& work, int row) const noexcept {
+  const TileGrid grid = grid_of(pending_.frame.window());
+  std::int64_t edges = 0;
+  const std::size_t first = position(grid, grid.x(work.tile), grid.y(work.tile) + row);
+  for_each_pixel(work.mask.rows[row],
+                 [&](int p) { edges += edges_of_pixel(pending_, first + static_cast<std::size_t>(p)).written; });
+  return edges;
+}
+
+std::vector<TileWork> SliceQueue::next(std::int64_t most_edges) {
+  std::vector<TileWork> slice;
+  std::int64_t room = most_edges;
+  const auto skip_done = [&](const std::vector<std::size_t>& order, std::size_t& at) {
+    while (at < order.size() && rows_done_[order[at]] == kTileHeight) ++at;
+    return at < order.size();
+  };
+  serve_waiting_ = !serve_waiting_;
+  while (left_ > 0) {
+    const bool waiting = serve_waiting_ && skip_done(by_waiting_, next_waiting_);
+    if (!waiting) skip_done(by_importance_, next_important_);
+    const std::size_t t = waiting ? by_waiting_[next_waiting_] : by_importance_[next_important_];
+    const TileWork& work = tiles_[t];
+    TileWork part{work.tile, work.max_index, {}};
+    for (; rows_done_[t] < kTileHeight; ++rows_done_[t]) {
+      const int row = rows_done_[t];
+      if (work.mask.rows[row] == 0) continue;
+      const std::int64_t edges = row_edges(work, row);
+      const bool first = slice.empty() && !part.mask.any();
+      if (!first && edges > room) break;
+      part.mask.rows[row] = work.mask.rows[row];
+      room -= edges;
+    }
+    if (part.mask.any()) slice.push_back(part);
+    if (rows_done_[t] < kTileHeight) break;
+    --left_;
+  }
+  return slice;
+}
+
+}  // namespace pullfocus

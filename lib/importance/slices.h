@@ -1,0 +1,46 @@
+// The work of a call that can be stopped, cut into slices.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "importance/order.h"
+#include "importance/waiting.h"
+
+namespace pullfocus {
+
+// Edges to write for a set of pixels, and what the set changes of the edge count of the committed state.
+struct EdgeCount {
+  std::int64_t written = 0;    // one scatter for a change of colour, two for a change of index
+  std::int64_t committed = 0;  // difference of the committed state's own edges
+};
+EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending);
+
+// Hands out a selection in slices, whole tiles in order of importance: for Order::gain by the sum of priorities per
+// edge, for Order::fearing by the most important pixel, for Order::random as positions are scrambled. Every second
+// slice serves the tiles that have waited longest, as long as any has waited. What `tiles`, `pending` and `waiting`
+// refer to must outlive the queue; their pixels may be committed meanwhile as slices are handed out.
+class SliceQueue {
+ public:
+  SliceQueue(const std::vector<TileWork>& tiles, const Pending& pending, const ImportanceOptions& options,
+             const WaitingTimes& waiting);
+
+  bool empty() const noexcept { return left_ == 0; }
+
+  // The next slice, in no particular order of tiles: at most about `most_edges` edges, but at least one tile row. Not
+  // for an empty queue.
+  std::vector<TileWork> next(std::int64_t most_edges);
+
+ private:
+  std::int64_t row_edges(const TileWork& work, int row) const noexcept;
+
+  const std::vector<TileWork>& tiles_;
+  const Pending& pending_;
+  std::vector<std::size_t> by_importance_, by_waiting_;  // positions in tiles_, first comes first
+  std::size_t next_important_ = 0, next_waiting_ = 0;
+  std::vector<std::uint8_t> rows_done_;  // of every tile; kTileHeight: handed out
+  std::size_t left_;
+  bool serve_waiting_ = false;
+};
+
+}  // namespace pullfocus
