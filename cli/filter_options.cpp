@@ -93,7 +93,10 @@ void check_filter_options(const FilterArguments& arguments) { filter_options(arg
 
 FilterOptions filter_options(const FilterArguments& a, const ShotFacts& facts) {
   FilterOptions options;
-  options.kernel = {a.coc_step, a.max_coc, facts.pixel_aspect, a.max_radiance};
+  options.kernel.coc_step = a.coc_step;
+  options.kernel.max_coc_px = a.max_coc;
+  options.kernel.pixel_aspect = facts.pixel_aspect;
+  options.kernel.max_radiance = a.max_radiance;
   options.importance = {parse_order(a.order), a.w_coc, a.w_rgb, a.buckets,
                         ColourMetric(parse_colour_distance(a.colour_distance), facts.chromaticities)};
   options.thresholds = {coc_threshold(a.coc_threshold, facts.focal_length_px), a.rgb_threshold};

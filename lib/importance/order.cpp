@@ -29,7 +29,7 @@ class PixelChange {
     if (pending_.state.index[at] == kNeverCommitted) return kFirstOfAll;
     switch (options_.order) {
       case Order::gain:
-        return static_cast<float>(gain(x, y));
+        return static_cast<float>(std::max(0., gain(x, y)));
       case Order::fearing:
         return static_cast<float>(bucket_of(importance(x, y), options_.buckets));
       case Order::random:
@@ -58,12 +58,19 @@ class PixelChange {
     const Colour now = new_colour(x, y), then = old_colour(x, y);
     const Colour change = difference(now, then);
     const double area_now = pending_.kernels.area(is), area_then = pending_.kernels.area(was);
-    const double of_colour = product(change, change) / std::sqrt(std::min(area_now, area_then));
+    const double changed = product(change, change);
+    const double of_colour = changed / std::sqrt(std::sqrt(std::min(area_now, area_then)));
     if (was == is) return of_colour;
     const Colour result = shown(x, y), a = difference(now, result), b = difference(then, result);
     const double of_kernel =
         product(a, a) / area_now + product(b, b) / area_then - 2 * product(a, b) / std::max(area_now, area_then);
-    return std::max(of_kernel, of_colour);
+    return changed > 0 ? std::max(of_kernel, of_colour) : of_kernel * spread(at);
+  }
+
+  // In [0, 1), another for every pixel and call.
+  double spread(std::size_t at) const noexcept {
+    return std::ldexp(static_cast<double>(scrambled(static_cast<std::uint32_t>(at) + 0x9e3779b9u * pending_.round)),
+                      -32);
   }
 
   Colour colour(const Pixel<type>& pixel) const noexcept {

@@ -29,12 +29,14 @@ inline constexpr float kFirstOfAll = std::numeric_limits<float>::infinity();
 // error that the pending change leaves in the picture. A pixel of colour I and kernel w adds (I - R) w / W to the
 // result R, W being about 1. With a = I_new - R, b = I_old - R and A = 1 / sum w^2, the area of a kernel,
 //
-//   gain = max(a^2 / A_new + b^2 / A_old - 2 a b / A_larger,  |I_new - I_old|^2 / sqrt(A_smaller))
+//   gain = max(a^2 / A_new + b^2 / A_old - 2 a b / A_larger,  |I_new - I_old|^2 / A_smaller^(1/4))
 //
 // The first term is the squared norm of a w_new - b w_old, concentric kernels overlapping as flat discs do. It misses
 // sharp pixels that R consists of (uncovered background), hence the second. That one alone counts where the kernel
-// stays. Changes of neighbours add up to |dI|^2 a pixel if they are alike and to |dI|^2 / A if they are noise; the
-// square root is halfway, within 3 % of the better choice in both (docs/orders.md).
+// stays: changes of neighbours add up to |dI|^2 a pixel if they are alike and to |dI|^2 / A if they are noise, and a
+// root in between costs little in either case. Where only the kernel changes, as in a focus pull, neighbours change
+// alike too, and the first few of them remove most of the error: there the gain is multiplied by a random number of [0,
+// 1), which spreads a partial update. Measured in docs/orders.md.
 //
 // Deterministic, whatever the threads (runs in the calling task arena).
 std::vector<std::vector<float>> priorities(const std::vector<TileWork>& tiles, const Pending& pending,

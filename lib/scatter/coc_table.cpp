@@ -14,17 +14,20 @@ double round_to_sixteenth(double value) { return std::round(value * 16) / 16; }
 
 }  // namespace
 
-CocTable::CocTable(double coc_step, double max_coc_px) {
+CocTable::CocTable(double coc_step, double max_coc_px, double smallest_step) {
   if (!(coc_step >= 0 && coc_step <= 1)) {
     throw Error(ErrorCode::usage, "--coc-step must lie between 0 (half-pixel steps everywhere) and 1");
   }
   if (!(max_coc_px >= 1 && max_coc_px <= kMaxDiameter)) {
     throw Error(ErrorCode::usage, "--max-coc must lie between 1 and 500 pixels");
   }
+  if (!(smallest_step >= 1. / 8 && smallest_step <= 1. / 2)) {
+    throw Error(ErrorCode::usage, "the smallest step of CoC diameters must lie between 1/8 and 1/2 pixel");
+  }
   const double largest = round_to_sixteenth(max_coc_px);
   max_diameter_ = static_cast<float>(largest);
   // A last step of a sixteenth would have no look-up cell of its own.
-  for (double d = 0; d < largest - 1. / 16; d += round_to_sixteenth(std::max(0.5, coc_step * d))) {
+  for (double d = 0; d < largest - 1. / 16; d += round_to_sixteenth(std::max(smallest_step, coc_step * d))) {
     diameters_.push_back(d);
   }
   diameters_.push_back(largest);

@@ -7,8 +7,8 @@
 
 namespace pullfocus {
 
-// Table diameters grow by half a pixel up to the diameter where `coc_step` times it exceeds that, and by
-// coc_step times the diameter beyond (the blurriest pixels cost most and are the least sensitive). Index 0 is
+// Table diameters grow by `smallest_step` (half a pixel) up to the diameter where `coc_step` times it exceeds that, and
+// by coc_step times the diameter beyond (the blurriest pixels cost most and are the least sensitive). Index 0 is
 // diameter 0; negative indices are in front of focus and share the diameter of their positive twin.
 class CocTable {
  public:
@@ -16,8 +16,10 @@ class CocTable {
   static constexpr double kMaxDiameter = 500;
 
   // coc_step in [0, 1]; max_coc_px in [1, kMaxDiameter], the largest diameter, to which larger ones are
-  // clamped. Throws Error(usage) naming --coc-step or --max-coc.
-  CocTable(double coc_step, double max_coc_px);
+  // clamped; smallest_step in [1/8, 1/2] pixels, for measuring what steps cost. Throws Error(usage) naming --coc-step
+  // or
+  // --max-coc.
+  CocTable(double coc_step, double max_coc_px, double smallest_step = 0.5);
 
   int size() const noexcept { return static_cast<int>(diameters_.size()); }  // indices -(size-1) .. size-1
   double diameter(int index) const noexcept { return diameters_[static_cast<std::size_t>(std::abs(index))]; }

@@ -52,7 +52,7 @@ double area_of(const Kernel& kernel) {
 
 }  // namespace
 
-KernelTable::KernelTable(const KernelOptions& options) : options_(options), coc_(options.coc_step, options.max_coc_px) {
+KernelTable::KernelTable(const KernelOptions& options) : options_(options), coc_(options.coc_step, options.max_coc_px, options.smallest_step) {
   if (!(options.pixel_aspect > 0.1 && options.pixel_aspect < 10)) {
     throw Error(ErrorCode::usage, fmt::format("pixel aspect ratio {} is not between 0.1 and 10: correct the "
                                               "file's pixelAspectRatio attribute",

@@ -14,6 +14,7 @@ struct KernelOptions {
   double max_coc_px = 400;     // largest diameter, [1, 500]
   double pixel_aspect = 1;     // pixel width / height, (0.1, 10)
   float max_radiance = 65504;  // colours are clamped to +- this; the accumulators must hold it
+  double smallest_step = 0.5;  // pixels between table diameters at least, [1/8, 1/2]
 };
 
 class KernelTable {
