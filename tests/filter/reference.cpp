@@ -5,8 +5,6 @@
 
 namespace pullfocus::test {
 
-namespace {
-
 // Reflection written as what happens: step over a border, turn round.
 int reflect(int x, int size) {
   while (x < 0 || x >= size) {
@@ -15,6 +13,8 @@ int reflect(int x, int size) {
   }
   return x;
 }
+
+namespace {
 
 // Calls visit(x, y, weight) for every pixel a kernel at (x, y) touches.
 template <typename Visit>

@@ -7,6 +7,9 @@
 
 namespace pullfocus::test {
 
+// Where a coordinate lands in [0, size) after reflection at the borders.
+int reflect(int x, int size);
+
 // What the accumulators must hold: for every committed source and every pixel of its kernel, round(I * w) added where
 // it lands after mirroring at the borders. O(R^2) a source, no runs, no bands, no deltas.
 std::vector<Accumulator> exact_sums(const SourceState& state, const KernelTable& kernels, int lanes);
