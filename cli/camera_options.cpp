@@ -4,22 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "image/error.h"
+#include "integers.h"
 #include "key_file.h"
 
 namespace pullfocus::cli {
 
 FocusPixel FocusPixel::parse(const std::string& text) {
   FocusPixel pixel;
-  int frame = 0, used = 0;
-  const int length = static_cast<int>(text.size());
-  if (std::sscanf(text.c_str(), "%d,%d%n", &pixel.x, &pixel.y, &used) == 2 && used == length) return pixel;
-  if (std::sscanf(text.c_str(), "%d,%d@%d%n", &pixel.x, &pixel.y, &frame, &used) == 3 && used == length) {
-    pixel.frame = frame;
-    return pixel;
-  }
+  if (read_integers(text, ",", {&pixel.x, &pixel.y})) return pixel;
+  if (read_integers(text, ",@", {&pixel.x, &pixel.y, &pixel.frame.emplace()})) return pixel;
   throw Error(ErrorCode::usage,
               fmt::format("--focus-at '{}' is not X,Y or X,Y@FRAME in pixels, such as 960,540", text));
 }

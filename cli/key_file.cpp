@@ -21,6 +21,12 @@ std::string place(std::string_view file, const toml::source_region& source, std:
   throw Error(ErrorCode::usage, fmt::format("{}: {}", where, message));
 }
 
+// Of a node that is a number. toml++ itself has no value for whole numbers beyond 2^53.
+double number_of(const toml::node& node) {
+  const auto* whole = node.as_integer();
+  return whole ? static_cast<double>(whole->get()) : node.as_floating_point()->get();
+}
+
 Key read_key(const toml::node& node, const std::string& where) {
   const toml::array* pair = node.as_array();
   if (!pair || pair->size() != 2 || !(*pair)[0].is_integer() || !(*pair)[1].is_number())
@@ -28,12 +34,12 @@ Key read_key(const toml::node& node, const std::string& where) {
   const std::int64_t frame = (*pair)[0].as_integer()->get();
   using Limits = std::numeric_limits<int>;
   if (frame < Limits::min() || frame > Limits::max()) refuse(where, "frame number is out of range");
-  return {static_cast<int>(frame), *(*pair)[1].value<double>()};
+  return {static_cast<int>(frame), number_of((*pair)[1])};
 }
 
 KeyedValue read_setting(const toml::node& node, std::string_view file, std::string_view what, Infinity infinity) {
   const std::string where = place(file, node.source(), what);
-  if (node.is_number()) return {*node.value<double>(), where, infinity};
+  if (node.is_number()) return {number_of(node), where, infinity};
   const toml::array* list = node.as_array();
   if (!list) refuse(where, "must be a number or a list of [frame, value] keys");
   std::vector<Key> keys;

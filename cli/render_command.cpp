@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 
 #include "command.h"
 #include "exr/range.h"
 #include "exr/writer.h"
 #include "image/error.h"
+#include "integers.h"
 #include "progress.h"
 #include "star_lateral.h"
 
@@ -53,10 +53,8 @@ int render(const Arguments& a) {
                                               sequences::star_lateral_name, sequences::star_lateral_description));
   }
   sequences::StarLateral scene;
-  int used = 0;
-  if (std::sscanf(a.size.c_str(), "%dx%d%n", &scene.width, &scene.height, &used) != 2 ||
-      used != static_cast<int>(a.size.size()) || scene.width < 1 || scene.height < 1 || scene.width > 16384 ||
-      scene.height > 16384) {
+  if (!read_integers(a.size, "x", {&scene.width, &scene.height}) || scene.width < 1 || scene.height < 1 ||
+      scene.width > 16384 || scene.height > 16384) {
     throw Error(ErrorCode::usage,
                 fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, 1 to 16384 each, such as 1920x1080", a.size));
   }

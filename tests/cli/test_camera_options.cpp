@@ -61,7 +61,7 @@ TEST(CameraOptions, FocusPixelsAreParsed) {
   EXPECT_EQ(FocusPixel::parse("3,-4").y, -4);
   EXPECT_FALSE(FocusPixel::parse("3,4").frame);
   EXPECT_EQ(FocusPixel::parse("3,4@12").frame, 12);
-  for (const char* text : {"", "3", "3,", "3,4@", "3,4,5", "a,b", "3,4@x"}) {
+  for (const char* text : {"", "3", "3,", "3,4@", "3,4,5", "a,b", "3,4@x", "4294967296,5", "3,4@99999999999"}) {
     expect_usage_error([&] { FocusPixel::parse(text); }, "--focus-at");
   }
 }

@@ -57,6 +57,11 @@ TEST_F(KeyFile, WholeNumbersAreValuesToo) {
   EXPECT_EQ(load("focal_length = [[1, 50], [2, 85]]").focal_length->to_string(), "1:50,2:85");
 }
 
+TEST_F(KeyFile, WholeNumbersBeyondThoseOfADoubleAreRounded) {
+  EXPECT_EQ(load("focus = 9223372036854775807").focus->linear_at(0), 0x1p63);
+  EXPECT_EQ(load("focus = [[1, 9007199254740993]]").focus->linear_at(1), 0x1p53);
+}
+
 TEST_F(KeyFile, WrongTextIsRefusedByFileAndLine) {
   const std::pair<const char*, const char*> wrong[] = {
       {"fstop = 2\nfocus = [[1, 0.4], [1, 0.5]]", "keys.toml:2: focus: has two keys"},

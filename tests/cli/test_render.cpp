@@ -36,6 +36,7 @@ TEST(Render, WrongOptionsAreNamed) {
        std::vector<std::pair<std::string, std::string>>{{"teapot -o x", "teapot"},
                                                         {"star-lateral -o x --size 0x9", "--size"},
                                                         {"star-lateral -o x --size 9", "--size"},
+                                                        {"star-lateral -o x --size 4294967305x9", "--size"},
                                                         {"star-lateral -o x --frames q", "q"},
                                                         {"star-lateral", "--out"}}) {
     const Outcome outcome = run("render " + options);
