@@ -50,6 +50,7 @@ struct Memory {
 Comparison compare(const HardShot& shot, int threads) {
   FilterOptions options = options_up_to(shot.max_coc_px);
   options.threads = threads;
+  options.slice_edges = 5000;
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
   IncrementalFilter filter(shot.window, options, kernels);
   FloatTwin twin(shot.window, kernels);
@@ -59,7 +60,7 @@ Comparison compare(const HardShot& shot, int threads) {
   CocFunction coc;
   const auto run = [&](int f, bool look) {
     shot.at(f, frame, coc);
-    filter.filter(frame, coc);
+    filter.filter(frame, coc, [] { return false; });  // a call that could be stopped takes changes over, never rebuilds
     twin.filter(frame, coc);
     if (!look) return;
     const TruePicture truth = true_picture(frame, coc, footprints);

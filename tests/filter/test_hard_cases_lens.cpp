@@ -52,7 +52,7 @@ TEST(HardLens, ThePapersLensTakesEveryFocusBeyondFAndRefusesF) {
   const auto refused = [](double focus) {
     ThinLens lens{50, 2, focus};
     lens.model = LensModel::paper;
-    expect_usage_error([&] { coc_function(lens, raster, DepthKind::planar); }, "--focus");
+    expect_usage_error([&] { coc_function(lens, raster, DepthKind::planar); }, "beyond the focal length");
   };
   refused(0.05);
   refused(std::nextafter(0.05, 0.));
