@@ -141,7 +141,8 @@ OneBucket one_bucket(const Budget& budget, int frames) {
   constexpr int block = 16;
   FilterOptions options = options_up_to(3);
   options.budget = budget;
-  options.importance = {0, 0};  // nothing is more important than anything else
+  options.importance.order = Order::fearing;
+  options.importance.w_coc = options.importance.w_rgb = 0;  // nothing is more important than anything else
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
   IncrementalFilter filter(window, options, kernels);
   Footprints footprints(window, kernels);
