@@ -1,10 +1,10 @@
 // Kernels as stacks of run shapes in the difference domain.
 //
 // A kernel spreads one source pixel over the pixels around it with non-negative integer weights that sum to
-// one unit (2^40) within 1e-7 (up to 220000 pixels, which is all that square pixels allow). Its weights take few
-// distinct values, the *levels*, and along a row the level changes at few places, the *edges*. A source writes, per
-// edge, only the change of its contribution; one prefix sum per row turns changes into contributions. So a source costs
-// O(radius) writes, not O(radius^2) (Fearing 1996, section 4.2, reformulated).
+// one unit (2^40) within 1e-7 (up to 220000 pixels of one weight, which is all that square pixels allow). Its weights
+// take few distinct values, the *levels*, and along a row the level changes at few places, the *edges*. A source
+// writes, per edge, only the change of its contribution; one prefix sum per row turns changes into contributions. So a
+// source costs O(radius) writes, not O(radius^2) (Fearing 1996, section 4.2, reformulated).
 //
 // The contribution of colour I at level k is round(I * levels[k]), a function of the source's own state
 // alone: writing the same edges with the other sign takes it back to the last bit, in any order (Fearing,
@@ -30,7 +30,9 @@ struct KernelEdge {
   bool rising;        // from low to high; else from high to low
 };
 
-inline constexpr std::size_t kMaxKernelSteps = 48;
+// All pairs of 16 levels and the outside. The scatter keeps steps x 8 columns x 5 lanes of sums on the stack (43.5 kB
+// at most), of which a kernel touches only as much as it has steps; only noisy pictures have them all.
+inline constexpr std::size_t kMaxKernelSteps = 17 * 16 / 2;
 
 struct Kernel {
   int radius_x = 0, radius_y = 0;        // columns -radius_x..radius_x and rows -radius_y..radius_y hold all weight
@@ -53,12 +55,19 @@ struct Kernel {
   std::int64_t total() const noexcept;
 };
 
-// Builds a kernel from small integer shares, row by row: `shares[(dy + ry) * (2 * rx + 1) + dx + rx]`.
-// Weights are shares times the nearest integer to unit / sum of shares, so their sum is within sum / 2 of the
-// unit: relative error below 1e-7 while the shares sum to less than 2^17.7. Empty margins are trimmed. Needs
-// at least one share > 0, at most 255 distinct values (of moderate size: a table of the largest is built) and
-// offsets within
-// +-32000.
+// Builds a kernel from integer shares >= 0, row by row: `shares[(dy + ry) * (2 * rx + 1) + dx + rx]`. A level's weight
+// is within 1.5 counts of unit * share / sum of shares, and chosen so that all weights sum to the unit within half the
+// pixels of the rarest level: relative error below 1e-7 where that has no more than 220000. Empty margins are trimmed.
+// Needs at least one share > 0, at most 255 distinct ones that differ by more than 2^-38 of their sum, and offsets
+// within +-32000. Throws std::logic_error for more than kMaxKernelSteps kinds of edges.
 Kernel kernel_from_shares(int rx, int ry, const std::vector<std::int32_t>& shares);
+
+// The kernel turned by half a turn about its source, with the same levels and steps.
+Kernel reflected(const Kernel& kernel);
+
+struct Mirrors {
+  bool x, y, point;  // equal to its mirror image left to right, top to bottom, to its reflection in the source
+};
+Mirrors mirrors_of(const Kernel& kernel);
 
 }  // namespace pullfocus

@@ -5,15 +5,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "image/error.h"
+#include "scatter/aperture_image.h"
+#include "scatter/diffraction.h"
 #include "scatter/disc.h"
+#include "scatter/gaussian.h"
+#include "scatter/polygon.h"
 
 namespace pullfocus {
 
 namespace {
 
-// Sum over offsets of the largest weight of any kernel there, in units.
+using KernelOfDiameter = std::function<Kernel(double diameter_px)>;
+
+KernelOfDiameter kernel_of_diameter(const KernelShape& shape, double aspect) {
+  switch (shape.kind) {
+    case KernelShape::Kind::polygon:
+      return [=](double d) { return polygon_kernel(d, aspect, shape); };
+    case KernelShape::Kind::gaussian:
+      return [=](double d) { return gaussian_kernel(d, aspect); };
+    case KernelShape::Kind::diffraction:
+      return [=, profile = DiffractionProfile()](double d) { return diffraction_kernel(d, aspect, profile); };
+    case KernelShape::Kind::image:
+      return [=, image = ApertureImage(*shape.picture)](double d) { return image.kernel(d, aspect); };
+    case KernelShape::Kind::disc:
+      break;
+  }
+  return [=](double d) { return disc_kernel(d, aspect); };
+}
+
+// Sum over offsets of the largest weight of any kernel there, or at its mirror images, in units.
 double largest_overlap(const std::vector<Kernel>& kernels) {
   int rx = 0, ry = 0;
   for (const Kernel& kernel : kernels) {
@@ -33,7 +57,13 @@ double largest_overlap(const std::vector<Kernel>& kernels) {
     }
   }
   double sum = 0;
-  for (const std::int64_t weight : largest) sum += static_cast<double>(weight);
+  for (std::size_t y = 0, rows = static_cast<std::size_t>(2 * ry + 1); y < rows; ++y) {
+    const std::int64_t* const row = &largest[y * static_cast<std::size_t>(columns)];
+    const std::int64_t* const other = &largest[(rows - 1 - y) * static_cast<std::size_t>(columns)];
+    for (int x = 0; x < columns; ++x) {
+      sum += static_cast<double>(std::max({row[x], row[columns - 1 - x], other[x], other[columns - 1 - x]}));
+    }
+  }
   return sum / static_cast<double>(kWeightUnit);
 }
 
@@ -52,7 +82,8 @@ double area_of(const Kernel& kernel) {
 
 }  // namespace
 
-KernelTable::KernelTable(const KernelOptions& options) : options_(options), coc_(options.coc_step, options.max_coc_px, options.smallest_step) {
+KernelTable::KernelTable(const KernelOptions& options)
+    : options_(options), coc_(options.coc_step, options.max_coc_px, options.smallest_step) {
   if (!(options.pixel_aspect > 0.1 && options.pixel_aspect < 10)) {
     throw Error(ErrorCode::usage, fmt::format("pixel aspect ratio {} is not between 0.1 and 10: correct the "
                                               "file's pixelAspectRatio attribute",
@@ -61,10 +92,25 @@ KernelTable::KernelTable(const KernelOptions& options) : options_(options), coc_
   if (!(options.max_radiance > 0)) {
     throw Error(ErrorCode::usage, "--max-radiance must be greater than 0");
   }
+  validate(options.shape);
   kernels_.resize(static_cast<std::size_t>(coc_.size()));
-  tbb::parallel_for(0, coc_.size(), [&](int i) {
-    kernels_[static_cast<std::size_t>(i)] = disc_kernel(coc_.diameter(i), options.pixel_aspect);
-  });
+  const KernelOfDiameter make = kernel_of_diameter(options.shape, options.pixel_aspect);
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, coc_.size(), 1),
+      [&](const auto& range) {
+        for (int i = range.begin(); i < range.end(); ++i)
+          kernels_[static_cast<std::size_t>(i)] = make(coc_.diameter(i));
+      },
+      tbb::simple_partitioner());
+  bool point_symmetric = true;
+  for (const Kernel& kernel : kernels_) {
+    const Mirrors mirrors = mirrors_of(kernel);
+    symmetric_ &= mirrors.x && mirrors.y;
+    point_symmetric &= mirrors.point;
+  }
+  if (!point_symmetric) {
+    for (const Kernel& kernel : kernels_) in_front_.push_back(reflected(kernel));
+  }
   for (const Kernel& kernel : kernels_) areas_.push_back(area_of(kernel));
   overlap_bound_ = largest_overlap(kernels_);
   const double limit = std::ldexp(1.0, 23) / overlap_bound_ - 1;

@@ -6,6 +6,7 @@
 
 #include "scatter/coc_table.h"
 #include "scatter/kernel.h"
+#include "scatter/kernel_shape.h"
 
 namespace pullfocus {
 
@@ -14,20 +15,25 @@ struct KernelOptions {
   double max_coc_px = 400;     // largest diameter, [1, 500]
   double pixel_aspect = 1;     // pixel width / height, (0.1, 10)
   float max_radiance = 65504;  // colours are clamped to +- this; the accumulators must hold it
+  KernelShape shape{};         // intensity distribution
   double smallest_step = 0.5;  // pixels between table diameters at least, [1/8, 1/2]
 };
 
 class KernelTable {
  public:
   // Throws Error(usage) if the options are out of range, or if a sum could overflow int64: with B the sum
-  // over all offsets of the largest weight any index has there, B * (max_radiance + 1) must stay below 2^63.
+  // over all offsets of the largest weight any index has there, B * (max_radiance + 1) must stay below 2^63. Weights
+  // count at their mirror images too, so that the bound holds whichever way a kernel is turned or folded.
   explicit KernelTable(const KernelOptions& options);
 
   const CocTable& coc() const noexcept { return coc_; }
   const KernelOptions& options() const noexcept { return options_; }
+  // > 0 is behind focus and shows the aperture upright, < 0 in front of it and shows it turned by half a turn.
   const Kernel& kernel(int signed_index) const noexcept {
-    return kernels_[static_cast<std::size_t>(signed_index < 0 ? -signed_index : signed_index)];
+    const bool front = signed_index < 0 && !in_front_.empty();
+    return (front ? in_front_ : kernels_)[static_cast<std::size_t>(signed_index < 0 ? -signed_index : signed_index)];
   }
+  bool symmetric() const noexcept { return symmetric_; }  // every kernel is its own mirror image in x and in y
   // Pixels that a flat kernel of the same spread would cover: 1 / sum of squared weights; >= 1.
   double area(int signed_index) const noexcept { return areas_[static_cast<std::size_t>(std::abs(signed_index))]; }
   double overlap_bound() const noexcept { return overlap_bound_; }  // B in units
@@ -36,6 +42,8 @@ class KernelTable {
   KernelOptions options_;
   CocTable coc_;
   std::vector<Kernel> kernels_;
+  std::vector<Kernel> in_front_;  // empty if every kernel is its own reflection
+  bool symmetric_ = true;
   std::vector<double> areas_;  // by |index|
   double overlap_bound_ = 0;
 };
