@@ -13,6 +13,17 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
   app.add_option("--method", a.method, "incremental: only what changed; linear: every frame anew; same result")
       ->group(group)
       ->capture_default_str();
+  app.add_option("--kernel", a.kernel.kernel,
+                 "intensity distribution: disc, polygon:N (N blades, 3 to 16), gaussian, diffraction, or image:FILE")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--blade-rotation", a.kernel.blade_rotation,
+                 "of polygon:N, anticlockwise in degrees; 0: a corner points up behind focus")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--blade-roundness", a.kernel.blade_roundness, "of polygon:N: 0 straight blades, 1 a disc")
+      ->group(group)
+      ->capture_default_str();
   app.add_option("--visibility", a.visibility, "none: plain scatter")->group(group)->capture_default_str();
   app.add_option("--budget", a.budget,
                  "share (15%) or number (200000) of changed pixels to update a frame, or time for it (40ms)")
@@ -97,6 +108,7 @@ FilterOptions filter_options(const FilterArguments& a, const ShotFacts& facts) {
   options.kernel.max_coc_px = a.max_coc;
   options.kernel.pixel_aspect = facts.pixel_aspect;
   options.kernel.max_radiance = a.max_radiance;
+  options.kernel.shape = kernel_shape(a.kernel);
   options.importance = {parse_order(a.order), a.w_coc, a.w_rgb, a.buckets,
                         ColourMetric(parse_colour_distance(a.colour_distance), facts.chromaticities)};
   options.thresholds = {coc_threshold(a.coc_threshold, facts.focal_length_px), a.rgb_threshold};

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "filter/options.h"
+#include "kernel_arguments.h"
 
 namespace CLI {
 class App;
@@ -15,6 +16,7 @@ namespace pullfocus::cli {
 struct FilterArguments {
   std::string method = "incremental", visibility = "none", budget = "100%", output_type;
   std::string order{name(Order::gain)}, colour_distance{name(ColourDistance::rgb)}, coc_threshold = "0";
+  KernelArguments kernel;
   double coc_step = KernelOptions{}.coc_step, max_coc = KernelOptions{}.max_coc_px;
   double w_coc = ImportanceOptions{}.w_coc, w_rgb = ImportanceOptions{}.w_rgb;
   int buckets = ImportanceOptions{}.buckets;

@@ -141,8 +141,9 @@ Imf::Header FilterRun::header(const exr::SequenceFrame& from, const Window& data
     header.insert(attribute, Imf::StringAttribute(text));
   };
   say("pullfocus.version", kVersion);
-  say("pullfocus.method", fmt::format("{} visibility=none coc_step={} max_coc={}", method_, options_.kernel.coc_step,
-                                      options_.kernel.max_coc_px));
+  say("pullfocus.method",
+      fmt::format("{} kernel=\"{}\" visibility=none coc_step={} max_coc={}", method_, describe(options_.kernel.shape),
+                  options_.kernel.coc_step, options_.kernel.max_coc_px));
   say("pullfocus.camera", shot_.camera().describe(from.frame, current_.file));
   return header;
 }

@@ -11,6 +11,7 @@
 #include "filter/plan.h"
 #include "filter_options.h"
 #include "image/error.h"
+#include "scatter/disc.h"
 #include "shot.h"
 
 namespace pullfocus::cli {
@@ -90,6 +91,17 @@ void say_camera(const Shot& shot, const exr::SequenceFrame& from, const exr::Fil
       name(l.model), l.metres_per_unit);
 }
 
+// What it costs at a diameter, and against the disc there.
+void say_kernel(const KernelTable& kernels) {
+  const KernelOptions& options = kernels.options();
+  const int index = kernels.coc().index(20);
+  const double diameter = kernels.coc().diameter(index), edges = kernels.kernel(index).edge_count();
+  const bool turned = &kernels.kernel(-index) != &kernels.kernel(index);
+  say("kernel", "{}{}", describe(options.shape), turned ? "; turned by half a turn in front of focus" : "");
+  say("", "at {:g} px: {} levels, {:g} run edges a source, {:.1f} times the disc's", diameter,
+      kernels.kernel(index).levels.size() - 1, edges, edges / disc_kernel(diameter, options.pixel_aspect).edge_count());
+}
+
 void say_plan(const Plan& plan, const FilterOptions& options) {
   const double pixels = static_cast<double>(plan.window.pixels());
   say("CoC", "{:.2f} to {:.2f} px (in front < 0 < behind); table indices {} to {} of {}", plan.coc_min, plan.coc_max,
@@ -156,6 +168,7 @@ int inspect(const Arguments& a) {
       make_plan(options, kernels, first.frame, coc, frames.size() > 1 ? &second.frame : nullptr, next_coc);
   say_depth(shot, first, plan);
   say_camera(shot, frames[0], first.file);
+  say_kernel(kernels);
   say_plan(plan, options);
   if (!a.explain.empty()) say_explanation(shot, first, coc, kernels, a.explain);
   return kDone;

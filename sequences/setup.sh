@@ -4,6 +4,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libopenexr-dev libimath-dev   # EXR files, half floats
+  libopenimageio-dev            # pictures: aperture images
   libtbb-dev                    # threads
   libfmt-dev libcli11-dev       # text, command line
   nlohmann-json3-dev libtomlplusplus-dev
