@@ -6,7 +6,7 @@
 //   camera/      ThinLens and a depth kind give a CocFunction: depth -> signed circle of confusion in pixels;
 //                KeyedValue: focus, f-number and focal length over frames
 //   importance/  what changed against the committed state, how noticeable it is, which of it a budget affords
-//   scatter/     kernels as run edges; sources into destination bands
+//   scatter/     KernelShape; kernels as run edges; sources into destination bands
 //   resolve/     sums of weighted colour divided by sums of weight
 //   filter/      LinearFilter and IncrementalFilter behind one interface; Stats; the Plan; explain()
 //

@@ -13,7 +13,7 @@
 // (the smaller diameter where pixels are not square). These are more than the disc has: a straight edge along the pixel
 // grid would jump by a whole pixel at once. Second moments per axis, against the polygon's over square pixels: within
 // 10 % from 4 px on, 4.5 % from 8, 2 % from 32. Below 2 px the kernel is mixed with the identity (density.h). Cost:
-// about (2, 2.8, 4.5) x diameter edges a source for L = 1, 2, 4 or more; less where the polygon is not as high as the
+// about (2, 3.4, 4.5) x diameter edges a source for L = 1, 2, 4 or more; less where the polygon is not as high as the
 // disc.
 #pragma once
 

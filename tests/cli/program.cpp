@@ -13,10 +13,12 @@ namespace pullfocus::test {
 
 std::size_t Outcome::error_lines() const { return static_cast<std::size_t>(std::count(err.begin(), err.end(), '\n')); }
 
-Outcome run(const std::string& arguments) {
+Outcome run(const std::string& arguments) { return run_program(PULLFOCUS_PROGRAM, arguments); }
+
+Outcome run_program(const std::string& program, const std::string& arguments) {
   const TempFolder folder;
   const std::string command =
-      fmt::format("'{}' {} >'{}' 2>'{}' </dev/null", PULLFOCUS_PROGRAM, arguments, folder / "out", folder / "err");
+      fmt::format("'{}' {} >'{}' 2>'{}' </dev/null", program, arguments, folder / "out", folder / "err");
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, exr::test::file_bytes(folder / "out"),
           exr::test::file_bytes(folder / "err")};

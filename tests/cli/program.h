@@ -20,6 +20,7 @@ struct Outcome {
 
 // pullfocus ARGUMENTS; the arguments go through a shell.
 Outcome run(const std::string& arguments);
+Outcome run_program(const std::string& program, const std::string& arguments);  // another copy of it
 
 // `../shared/data/NAME`, or empty if it is not there.
 std::string shared_data(const std::string& name);

@@ -4,6 +4,7 @@
 #include "filter/linear_filter.h"
 #include "random_frames.h"
 #include "reference.h"
+#include "shapes.h"
 
 namespace pullfocus {
 namespace {
@@ -23,8 +24,10 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
              << (c.hostile ? " hostile" : "");
 }
 
-FilterOptions options_for(const Case& c) {
+FilterOptions options_for(const Case& c, unsigned seed) {
+  const std::vector<KernelShape> shapes = test::all_shapes();
   FilterOptions options;
+  options.kernel.shape = shapes[seed % shapes.size()];
   options.kernel.max_coc_px = std::max(1.f, c.largest_px);
   options.output_type = SampleType::float32;
   return options;
@@ -60,10 +63,10 @@ class Invariant : public testing::TestWithParam<Case> {};
 
 TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndStop) {
   const Case& c = GetParam();
-  const auto kernels = std::make_shared<const KernelTable>(options_for(c).kernel);
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto kernels = std::make_shared<const KernelTable>(options_for(c, seed).kernel);
     RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
-    FilterOptions options = options_for(c);
+    FilterOptions options = options_for(c, seed);
     options.budget = random_budget(shot.random());
     options.slice_edges = 1 + static_cast<std::int64_t>(shot.random()() % 3000);
     options.threads = 1 + static_cast<int>(seed % 4);
@@ -97,10 +100,10 @@ TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndS
 
 TEST_P(Invariant, IncrementalEqualsLinearBitForBitWheneverNothingIsLeftOver) {
   const Case& c = GetParam();
-  const auto kernels = std::make_shared<const KernelTable>(options_for(c).kernel);
-  for (unsigned seed = 11; seed <= 13; ++seed) {
+  for (unsigned seed = 11; seed <= 20; ++seed) {
+    const auto kernels = std::make_shared<const KernelTable>(options_for(c, seed).kernel);
     RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
-    FilterOptions options = options_for(c);
+    FilterOptions options = options_for(c, seed);
     options.threads = 1;
     LinearFilter linear(c.window, options, kernels);
     options.threads = 1 + static_cast<int>(seed % 4);
