@@ -82,7 +82,8 @@ TEST_F(KernelOptionsOfTheProgram, MistakesAreOneLineThatNamesTheOptionAndExitWit
                                                        {"--blade-rotation nan", "--blade-rotation"}};
   for (const auto& [options, word] : cases) {
     for (const char* name : {"filter", "inspect"}) {
-      const Outcome outcome = run(command(name, options + (name[0] == 'f' ? " " + out("o") : "")));
+      const Outcome outcome =
+          run(command(name, fmt::format("{} {}", options, name[0] == 'f' ? out("o") : std::string())));
       EXPECT_EQ(outcome.code, 2) << options;
       EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
       EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;

@@ -38,18 +38,19 @@ TEST(Polygon, SecondMomentsAreThoseOfTheInscribedPolygon) {
 
 // By points: inside if on the inner side of every edge between corners on the circle, the first corner up.
 double coverage(int dx, int dy, double d, int blades, double rotation) {
-  constexpr int n = 40;
+  std::vector<std::pair<double, double>> corners;
+  for (int c = 0; c <= blades; ++c) {  // anticlockwise from up, y down
+    const double a = rotation * pi / 180 + 2 * pi * c / blades;
+    corners.push_back({-std::sin(a) * d / 2, -std::cos(a) * d / 2});
+  }
+  constexpr int n = 32;
   int inside = 0;
   for (int i = 0; i < n * n; ++i) {
     const double x = dx - 0.5 + (i % n + 0.5) / n, y = dy - 0.5 + (i / n + 0.5) / n;
     bool in = true;
-    for (int k = 0; k < blades; ++k) {
-      const auto corner = [&](int c) {  // anticlockwise from up, y down
-        const double a = rotation * pi / 180 + 2 * pi * c / blades;
-        return std::pair{-std::sin(a) * d / 2, -std::cos(a) * d / 2};
-      };
-      const auto [ax, ay] = corner(k);
-      const auto [bx, by] = corner(k + 1);
+    for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+      const auto [ax, ay] = corners[k];
+      const auto [bx, by] = corners[k + 1];
       in &= (bx - ax) * (y - ay) - (by - ay) * (x - ax) <= 0;
     }
     inside += in;
