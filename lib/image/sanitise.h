@@ -76,6 +76,16 @@ class Sanitiser {
     return pixel;
   }
 
+  // Bits of the largest magnitude that passes, alpha's apart, which may always be up to 1.
+  template <SampleType type>
+  auto limit() const noexcept {
+    if constexpr (type == SampleType::half) {
+      return half_max_;
+    } else {
+      return float_max_;
+    }
+  }
+
   template <SampleType type>
   Pixel<type> operator()(const Pixel<type>& pixel) const noexcept {
     ColourRepairs ignored;

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "importance/distance.h"
 
@@ -65,23 +64,18 @@ class Detector {
  private:
   std::uint64_t segment(int x, int y, int n, int& max_index, TileRow& row) const {
     std::int16_t index[kTileWidth];
-    ingest_.indices(x, y, n, index, row.findings);
-    ingest_.content(x, y, n, index, row.findings);
-
     const std::int16_t* committed = &state_.index[at(grid_, x, y)];
     const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
-    std::uint64_t changed = 0;
-    if (std::memcmp(index, committed, static_cast<std::size_t>(n) * sizeof *index) != 0) {
-      for (int i = 0; i < n; ++i) changed |= std::uint64_t{index[i] != committed[i]} << i;
-    }
+    const SegmentDifference difference = ingest_.compare(x, y, n, old, committed, index, row.findings);
     // What was committed is sane, so equal bits are equal sane colours.
-    if (std::memcmp(ingest_.colours(x, y), old, static_cast<std::size_t>(n) * sizeof *old) != 0 || changed != 0) {
-      Pixel<type> pixels[kTileWidth];
-      ingest_.sanitised(x, y, n, pixels, row.findings);
-      for (int i = 0; i < n; ++i) changed |= std::uint64_t{!(pixels[i] == old[i])} << i;
-      if (thresholds_.any()) changed = beyond_thresholds(changed, pixels, old, index, committed);
-      for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
-    }
+    if ((difference.index | difference.colour) == 0) return 0;
+
+    Pixel<type> pixels[kTileWidth];
+    ingest_.sanitised(x, y, n, pixels, row.findings);
+    std::uint64_t changed = difference.index;
+    for_each_pixel(difference.colour, [&](int i) { changed |= std::uint64_t{!(pixels[i] == old[i])} << i; });
+    if (thresholds_.any()) changed = beyond_thresholds(changed, pixels, old, index, committed);
+    for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
     if (changed != 0) {
       std::copy(index, index + n, &pending_[at(grid_, x, y)]);
       for_each_pixel(changed, [&](int i) {
@@ -150,7 +144,6 @@ FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTa
       std::int16_t* index = &state.index[at(grid, x, y)];
       Pixel<type>* pixels = pixels_of<type>(state.colour, x, y);
       ingest.indices(x, y, n, index, row.findings);
-      ingest.content(x, y, n, index, row.findings);
       ingest.sanitised(x, y, n, pixels, row.findings);
       int largest = 0;
       for (int i = 0; i < n; ++i) {

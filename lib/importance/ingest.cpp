@@ -1,6 +1,7 @@
 #include "importance/ingest.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstdlib>
 
 namespace pullfocus {
 
@@ -13,52 +14,35 @@ void FrameFindings::add(const FrameFindings& other) noexcept {
   content_index = std::max(content_index, other.content_index);
 }
 
-namespace {
-
-// Signed diameters of n depths, background resolved. Branch-free so that it vectorises.
-void diameters(const CocFunction& coc, const float* depth, int n, float* out) noexcept {
-  if (coc.kind == DepthKind::coc) {
-    for (int i = 0; i < n; ++i) out[i] = std::fabs(depth[i]) < INFINITY ? depth[i] : 0.f;
-    return;
-  }
-  for (int i = 0; i < n; ++i) {
-    const float z = depth[i];
-    const bool surface = (z > 0.f) & (z < planar_background_from);
-    const float inverse = 1.0f / (surface ? z : INFINITY);
-    out[i] = coc.scale * (coc.inverse_focus - inverse);
-  }
-}
-
-}  // namespace
-
 template <SampleType type>
 void SegmentIngest<type>::indices(int x, int y, int n, std::int16_t* out, FrameFindings& findings) const noexcept {
-  const float* depth = frame_.depth.row(window_.y0 + y) + x;
-  float c[kTileWidth];
-  diameters(coc_, depth, n, c);
+  add(x, y, n, signed_indices(to_index_, depths(x, y), n, out), out, findings);
+}
 
-  std::int32_t cell[kTileWidth];
-  int suspect = 0, clamped = 0;
-  for (int i = 0; i < n; ++i) {
-    cell[i] = table_.cell(c[i]);
-    clamped += std::fabs(c[i]) > table_.max_diameter();
-    suspect += !(depth[i] > 0.f);
-  }
-  const std::int16_t* cells = table_.cells();
-  for (int i = 0; i < n; ++i) {
-    const std::int16_t magnitude = cells[cell[i]];
-    out[i] = c[i] < 0.f ? static_cast<std::int16_t>(-magnitude) : magnitude;
-  }
-  findings.coc_clamped += clamped;
-  if (suspect != 0) count_suspects(x, y, n, findings);
+template <SampleType type>
+SegmentDifference SegmentIngest<type>::compare(int x, int y, int n, const Pixel<type>* old_colours,
+                                               const std::int16_t* old_index, std::int16_t* out,
+                                               FrameFindings& findings) const noexcept {
+  const SegmentPair<type> pair{depths(x, y), colours(x, y), old_colours, old_index, n};
+  SegmentDifference difference;
+  add(x, y, n, pullfocus::compare<type>(to_index_, pair, out, difference), out, findings);
+  return difference;
+}
+
+template <SampleType type>
+void SegmentIngest<type>::add(int x, int y, int n, const SegmentFindings& segment, const std::int16_t* indices,
+                              FrameFindings& findings) const noexcept {
+  findings.coc_clamped += segment.clamped;
+  if (segment.suspect) count_suspects(x, y, n, findings);
+  content(x, y, n, segment.largest, indices, findings);
 }
 
 template <SampleType type>
 void SegmentIngest<type>::count_suspects(int x, int y, int n, FrameFindings& findings) const noexcept {
-  const float* depth = frame_.depth.row(window_.y0 + y) + x;
+  const float* depth = depths(x, y);
   const Pixel<type>* pixels = colours(x, y);
   for (int i = 0; i < n; ++i) {
-    findings.depth += is_suspect(coc_.kind, depth[i], sample_value(sanitiser_(pixels[i]).rgba[3]) > 0.f);
+    findings.depth += is_suspect(to_index_.coc.kind, depth[i], sample_value(sanitiser_(pixels[i]).rgba[3]) > 0.f);
   }
 }
 
@@ -66,14 +50,12 @@ template <SampleType type>
 bool SegmentIngest<type>::has_content(int x, int y) const noexcept {
   const auto& rgba = colours(x, y)->rgba;
   const bool coloured = (rgba[0] | rgba[1] | rgba[2]) != 0 || (frame_.has_alpha && rgba[3] != 0);
-  return coloured || !is_background(coc_.kind, frame_.depth.row(window_.y0 + y)[x]);
+  return coloured || !is_background(to_index_.coc.kind, *depths(x, y));
 }
 
 template <SampleType type>
-void SegmentIngest<type>::content(int x, int y, int n, const std::int16_t* indices,
+void SegmentIngest<type>::content(int x, int y, int n, int largest, const std::int16_t* indices,
                                   FrameFindings& findings) const noexcept {
-  int largest = 0;
-  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(static_cast<int>(indices[i])));
   Window& bounds = findings.content;
   // Where neither the bounds nor the largest index can grow there is nothing to look for.
   const bool inside = x >= bounds.x0 && x + n <= bounds.x1 && y >= bounds.y0 && y < bounds.y1;

@@ -8,6 +8,7 @@
 #include "image/frame.h"
 #include "image/sanitise.h"
 #include "image/tiles.h"
+#include "importance/segment.h"
 #include "scatter/coc_table.h"
 
 namespace pullfocus {
@@ -28,32 +29,40 @@ template <SampleType type>
 class SegmentIngest {
  public:
   SegmentIngest(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser)
-      : frame_(frame), coc_(coc), table_(table), sanitiser_(sanitiser), window_(frame.window()) {}
+      : frame_(frame), to_index_(coc, table), sanitiser_(sanitiser), window_(frame.window()) {}
 
   // Pixels x .. x + n - 1 (n <= kTileWidth) of row y, from the window's corner.
   const Pixel<type>* colours(int x, int y) const noexcept {
     return reinterpret_cast<const Pixel<type>*>(frame_.colour.pixel(window_.x0 + x, window_.y0 + y));
   }
 
-  // Writes the signed indices of the n pixels, and counts repairs of depth and clamps.
+  // Writes the signed indices of the n pixels. Counts repairs of depth and clamps, and extends the content bounds.
   void indices(int x, int y, int n, std::int16_t* out, FrameFindings& findings) const noexcept;
+
+  // The same, and what differs from the committed pixels. `out` has room for kTileWidth indices.
+  SegmentDifference compare(int x, int y, int n, const Pixel<type>* old_colours, const std::int16_t* old_index,
+                            std::int16_t* out, FrameFindings& findings) const noexcept;
 
   // Sanitised colours; counts repairs.
   void sanitised(int x, int y, int n, Pixel<type>* out, FrameFindings& findings) const noexcept {
     const Pixel<type>* in = colours(x, y);
+    if (all_sane<type>(sanitiser_, in, n)) {
+      std::copy_n(in, n, out);
+      return;
+    }
     for (int i = 0; i < n; ++i) out[i] = sanitiser_(in[i], findings.colour);
   }
 
-  // Extends the content bounds by these pixels, whose indices are given.
-  void content(int x, int y, int n, const std::int16_t* indices, FrameFindings& findings) const noexcept;
-
  private:
+  const float* depths(int x, int y) const noexcept { return frame_.depth.row(window_.y0 + y) + x; }
+  void add(int x, int y, int n, const SegmentFindings& segment, const std::int16_t* indices,
+           FrameFindings& findings) const noexcept;
+  void content(int x, int y, int n, int largest, const std::int16_t* indices, FrameFindings& findings) const noexcept;
   bool has_content(int x, int y) const noexcept;
   void count_suspects(int x, int y, int n, FrameFindings& findings) const noexcept;
 
   const Frame& frame_;
-  const CocFunction coc_;
-  const CocTable& table_;
+  const DepthToIndex to_index_;
   const Sanitiser& sanitiser_;
   const Window window_;
 };

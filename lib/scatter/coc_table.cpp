@@ -38,7 +38,7 @@ CocTable::CocTable(double coc_step, double max_coc_px, double smallest_step) {
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const double centre = (static_cast<double>(cell) + 0.5) / kCellsPerPixel;
     while (index + 1 < diameters_.size() && centre - diameters_[index] > diameters_[index + 1] - centre) ++index;
-    cells_[cell] = static_cast<std::int16_t>(index);
+    cells_[cell] = static_cast<std::int32_t>(index);
   }
 }
 
