@@ -51,14 +51,19 @@ class Detector {
         pending_(pending),
         grid_(grid_of(state.colour.window())) {}
 
-  void run(int tile, TileRow& row) const {
-    TileWork work{tile, 0, {}};
-    for (int i = 0; i < grid_.tile_height(tile); ++i) {
-      work.mask.rows[i] = segment(grid_.x(tile), grid_.y(tile) + i, grid_.tile_width(tile), work.max_index, row);
+  // Tiles `first` .. `first + grid.columns() - 1`, which are one row of tiles. Goes by rows of pixels, not by tiles:
+  // memory is read in one stream.
+  void run(int first, TileRow& row) const {
+    row.tiles.resize(static_cast<std::size_t>(grid_.columns()));
+    for (int c = 0; c < grid_.columns(); ++c) row.tiles[static_cast<std::size_t>(c)].tile = first + c;
+    for (int i = 0; i < grid_.tile_height(first); ++i) {
+      for (TileWork& work : row.tiles) {
+        work.mask.rows[i] =
+            segment(grid_.x(work.tile), grid_.y(work.tile) + i, grid_.tile_width(work.tile), work.max_index, row);
+      }
     }
-    if (!work.mask.any()) return;
-    row.pixels += work.mask.count();
-    row.tiles.push_back(work);
+    std::erase_if(row.tiles, [](const TileWork& work) { return !work.mask.any(); });
+    for (const TileWork& work : row.tiles) row.pixels += work.mask.count();
   }
 
  private:
@@ -117,11 +122,8 @@ Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable&
   dispatch(frame.colour.type(), [&]<SampleType type>() {
     const SegmentIngest<type> ingest(frame, coc, table, sanitiser);
     const Detector<type> detector(ingest, table, state, thresholds, pending);
-    tbb::parallel_for(0, grid.rows(), [&](int r) {
-      for (int c = 0; c < grid.columns(); ++c) {
-        detector.run(r * grid.columns() + c, rows[static_cast<std::size_t>(r)]);
-      }
-    });
+    tbb::parallel_for(0, grid.rows(),
+                      [&](int r) { detector.run(r * grid.columns(), rows[static_cast<std::size_t>(r)]); });
   });
   Changes changes;
   for (const TileRow& row : rows) {
