@@ -8,21 +8,6 @@
 
 namespace pullfocus {
 
-namespace {
-
-constexpr int kWindow = 8;  // columns written together
-
-}  // namespace
-
-// A band as kernels see it: kernel rows Y in [y0, y1) land on band row `first + (Y - y0) * direction`. The
-// band itself, and its mirror images past the top and bottom border that kernels still reach.
-struct Scatter::Mirrored {
-  int y0, y1;
-  int first, direction;
-
-  int band_row(int y) const noexcept { return first + (y - y0) * direction; }
-};
-
 Scatter::Scatter(const KernelTable& kernels, int width, int height) : kernels_(kernels), grid_{width, height} {
   int reach_x = 0, reach_y = 0;
   for (int i = 0; i < kernels.coc().size(); ++i) {
@@ -35,39 +20,11 @@ Scatter::Scatter(const KernelTable& kernels, int width, int height) : kernels_(k
 
 namespace {
 
-// Writes the edges of `width` neighbouring sources of row y, the first at image column x, into the band rows of one
-// mirror image.
-template <int lanes, int width, typename Image>
-void write_edges(const Kernel& kernel, int x, int y, const Accumulator* steps, const Image& image, Band& band) {
-  constexpr int n = width * lanes;
-  const int from = std::max(y - kernel.radius_y, image.y0), to = std::min(y + kernel.radius_y + 1, image.y1);
-  for (int row = from; row < to; ++row) {
-    Accumulator* const at_source = band.row(image.band_row(row)) + static_cast<std::ptrdiff_t>(x) * lanes;
-    for (const KernelEdge& edge : kernel.row(row - y)) {
-      Accumulator* const out = at_source + static_cast<std::ptrdiff_t>(edge.dx) * lanes;
-      const Accumulator* const in = steps + edge.step * n;
-      if (edge.rising) {
-        for (int i = 0; i < n; ++i) out[i] += in[i];
-      } else {
-        for (int i = 0; i < n; ++i) out[i] -= in[i];
-      }
-    }
-  }
-}
-
-template <int lanes, int width, bool with_minus, typename Image>
-void write_group(const Kernel& kernel, const Emission<lanes>* sources, std::uint32_t members, int x, int y,
-                 const Image& image, Band& band) {
-  alignas(64) Accumulator steps[kMaxKernelSteps * width * lanes];
-  step_values<lanes, width, with_minus>(kernel, sources, members, x, steps);
-  write_edges<lanes, width>(kernel, x, y, steps, image, band);
-}
-
 // Sources are written in groups of equal kernel within windows of kWindow columns. Columns of a group that hold another
 // kernel are written as zeros: that is cheaper than splitting the group.
-template <int lanes, bool with_minus, typename Image>
-void write_sources(const KernelTable& kernels, const Emission<lanes>* sources, int count, int y, const Image& image,
-                   Band& band) {
+template <int lanes>
+void write_sources(const KernelTable& kernels, const GroupWriters<lanes>& writers, const Emission<lanes>* sources,
+                   int count, int y, const BandImage& image, Band& band) {
   for (int i = 0; i < count;) {
     const Emission<lanes>* const window = sources + i;
     int in_window = 1;
@@ -84,16 +41,8 @@ void write_sources(const KernelTable& kernels, const Emission<lanes>* sources, i
       if (width > 2 * std::popcount(members)) members &= ~members + 1;  // too sparse: one at a time
       pending &= ~members;
 
-      const Kernel& kernel = kernels.kernel(window[first].index);
-      if (std::popcount(members) == 1) {
-        write_group<lanes, 1, with_minus>(kernel, window, members, x, y, image, band);
-      } else if (width <= 2) {
-        write_group<lanes, 2, with_minus>(kernel, window, members, x, y, image, band);
-      } else if (width <= 4) {
-        write_group<lanes, 4, with_minus>(kernel, window, members, x, y, image, band);
-      } else {
-        write_group<lanes, kWindow, with_minus>(kernel, window, members, x, y, image, band);
-      }
+      const auto write = writers.writer(std::popcount(members) == 1 ? 1 : width);
+      write(kernels.kernel(window[first].index), window, members, x, y, image, band);
     }
     i += in_window;
   }
@@ -105,7 +54,7 @@ template <int lanes>
 void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& sources,
                    const BandLayout& layout) const {
   // Every reflection of the band within reach of the image: index k counts borders crossed, downwards.
-  std::vector<Mirrored> images;
+  std::vector<BandImage> images;
   const int h = layout.height, reach = reach_y_.empty() ? 0 : reach_y_.back();
   const int most = reach / h + 2;
   for (int k = -most; k <= most; ++k) {
@@ -116,8 +65,9 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
       images.push_back({y0, y1, flipped ? band.y1() - 1 : band.y0(), flipped ? -1 : 1});
   }
 
+  const GroupWriters<lanes> writers = group_writers<lanes>(sources.frame != nullptr);
   EmissionRow<lanes> row;
-  for (const Mirrored& image : images) {
+  for (const BandImage& image : images) {
     for (const TileWork& work : tiles) {
       const int x = grid_.x(work.tile), y = grid_.y(work.tile);
       const TileMask::Bounds part = work.mask.bounds();
@@ -130,12 +80,8 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
         if (work.mask.rows[i] == 0 || y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
         dispatch(sources.state->colour.type(),
                  [&]<SampleType type>() { collect<lanes, type>(sources, x, y + i, work.mask.rows[i], row); });
-        if (sources.frame == nullptr) {
-          write_sources<lanes, false>(kernels_, row.emissions, row.count, y + i, image, band);
-        } else {
-          write_sources<lanes, true>(kernels_, row.emissions, row.count, y + i, image, band);
-          write_sources<lanes, true>(kernels_, row.removed, row.removed_count, y + i, image, band);
-        }
+        write_sources(kernels_, writers, row.emissions, row.count, y + i, image, band);
+        write_sources(kernels_, writers, row.removed, row.removed_count, y + i, image, band);
       }
     }
   }

@@ -47,7 +47,6 @@ class Scatter {
   int reach_y(int index) const noexcept { return reach_y_[static_cast<std::size_t>(index)]; }
 
  private:
-  struct Mirrored;
   template <int lanes>
   void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout) const;
 

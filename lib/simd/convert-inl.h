@@ -26,6 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Vec<hn::RebindToSigned<D>> RoundToInt64(D d, V v) {
 #if HWY_TARGET == HWY_SCALAR
+  (void)d;
   return hn::Set(hn::RebindToSigned<D>(), static_cast<std::int64_t>(std::llrint(hn::GetLane(v))));
 #elif HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
   using Out = hn::Vec<hn::RebindToSigned<D>>;
