@@ -4,6 +4,7 @@
 #include "filter/call.h"
 #include "filter/incremental_filter.h"
 #include "resolve/resolve.h"
+#include "scatter/sums.h"
 
 namespace pullfocus {
 
@@ -76,7 +77,7 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Edge
                     [&](int y, int x0, int x1, const Accumulator* values) {
                       Accumulator* sums = &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes];
                       const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
-                      for (std::size_t i = 0; i < n; ++i) sums[i] += values[i];
+                      add_sums(values, n, sums);
                       dirty_.mark(y, x0, x1);
                     });
   commit(*frame_, core_.sanitiser, pending_, selected, state_);

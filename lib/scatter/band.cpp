@@ -1,5 +1,7 @@
 #include "scatter/band.h"
 
+#include "scatter/sums.h"
+
 namespace pullfocus {
 
 void Band::begin(const BandLayout& layout, int y0, int y1) {
@@ -31,25 +33,7 @@ void Band::mark(int ya, int yb, int x0, int x1) noexcept {
   }
 }
 
-namespace {
-
-template <int lanes>
-void prefix_sum(Accumulator* values, int columns) noexcept {
-  Accumulator sum[lanes] = {};
-  for (int x = 0; x < columns; ++x, values += lanes) {
-    for (int c = 0; c < lanes; ++c) values[c] = sum[c] += values[c];
-  }
-}
-
-}  // namespace
-
-void Band::integrate(Accumulator* first, int columns) noexcept {
-  if (layout_.lanes == kOpaqueLanes) {
-    prefix_sum<kOpaqueLanes>(first, columns);
-  } else {
-    prefix_sum<kAlphaLanes>(first, columns);
-  }
-}
+void Band::integrate(Accumulator* first, int columns) noexcept { prefix_sum(first, columns, layout_.lanes); }
 
 void Band::fold(Accumulator* image_row, int from, int to) noexcept {
   const int lanes = layout_.lanes;
