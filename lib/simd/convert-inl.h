@@ -48,7 +48,7 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<D>> RoundToInt64(D d, V v) {
 #endif
 }
 
-// Bits of the halves nearest to floats of magnitude at most 65504, ties to even: finite_float_to_half (image/sample.h).
+// Bits of the halves nearest to floats of magnitude at most 65504, ties to even.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Vec<hn::Rebind<std::uint16_t, D>> HalfFromFloat(D d, V v) {
   const hn::Rebind<std::uint16_t, D> d16;

@@ -103,25 +103,5 @@ TEST(HalfToFloat, IsExactForEveryFiniteHalf) {
   }
 }
 
-TEST(FloatToHalf, RoundsEveryFiniteFloatAsImathDoes) {
-  const auto expect = [](std::uint32_t bits) {
-    const float value = std::bit_cast<float>(bits);
-    if (!(std::fabs(value) <= 65504.f)) return;
-    ASSERT_EQ(finite_float_to_half(value), imath_float_to_half(value)) << value;
-  };
-  // Around every half and every middle between two: there rounding turns.
-  for (int half = 0; half < 65536; ++half) {
-    if ((half & 0x7c00) == 0x7c00) continue;
-    const float value = imath_half_to_float(static_cast<std::uint16_t>(half));
-    const float middle = value / 2 + imath_half_to_float(static_cast<std::uint16_t>(half + 1)) / 2;
-    for (const float near : {value, middle}) {
-      for (int d = -2; d <= 2; ++d) expect(std::bit_cast<std::uint32_t>(near) + static_cast<std::uint32_t>(d));
-    }
-    ASSERT_FALSE(HasFailure());
-  }
-  std::mt19937 random(6);
-  for (int i = 0; i < 1000000; ++i) expect(static_cast<std::uint32_t>(random()));
-}
-
 }  // namespace
 }  // namespace pullfocus
