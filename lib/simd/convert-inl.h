@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // The integers nearest to v, ties to even, as std::llrint gives them in the default rounding mode; |v| < 2^62.
 //
-// Without an instruction for it, v is split at 2^32: hi, the multiple of 2^32 nearest to v, and lo = v - hi, exact
+// Without an instruction for it, vectors of four are split at 2^32: hi, the multiple of 2^32 nearest to v, and lo = v - hi, exact
 // since its |lo| <= 2^31 needs no bit below v's last. Adding 1.5 * 2^52 rounds each to an integer, which then is the
 // low end of the sum's mantissa. hi is even, so ties of lo go where those of v go.
 template <class D, class V = hn::Vec<D>>
@@ -38,6 +38,10 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<D>> RoundToInt64(D d, V v) {
   } else {
     return Out{_mm_cvtpd_epi64(v.raw)};
   }
+#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+  (void)d;  // two at a time, converting each is faster than splitting both
+  return hn::Vec<hn::RebindToSigned<D>>{
+      _mm_set_epi64x(_mm_cvtsd_si64(_mm_unpackhi_pd(v.raw, v.raw)), _mm_cvtsd_si64(v.raw))};
 #else
   const hn::RebindToSigned<D> di;
   const auto magic = hn::Set(d, 0x1.8p52);
