@@ -103,9 +103,10 @@ void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int l
   // Beyond the reach lies room for the last edge, and for the zeros that fill up a group of sources.
   const BandLayout layout{grid_.width, grid_.height, reach_x(largest) + kWindow, lanes};
 
-  // Low bands feed all threads evenly, but bands lower than the reach visit every source several times.
+  // Low bands feed all threads evenly, but bands lower than the reach visit every source several times; one thread has
+  // nothing to even out.
   const int span = y_last - y_first;
-  const int share = (span + 4 * threads - 1) / (4 * threads);
+  const int parts = threads == 1 ? 1 : 4 * threads, share = (span + parts - 1) / parts;
   const int band_rows = std::clamp(share, std::clamp(reach_y(largest), 16, 64), 128);
   const int band_count = (span + band_rows - 1) / band_rows;
   tbb::parallel_for(0, band_count, [&](int b) {
