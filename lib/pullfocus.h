@@ -23,7 +23,7 @@
 //   distances   scene units; lens measures in millimetres; circles of confusion are diameters in pixels, > 0
 //   behind focus exactness   with nothing left over, the incremental result equals the linear one bit for
 //   bit, whatever the history,
-//               the number of threads, and where a shot is cut
+//               the number of threads, the SIMD target, and where a shot is cut
 //   threads     a filter uses FilterOptions::threads threads of oneTBB inside a call; one call at a time per
 //   filter errors      pullfocus::Error, whose text names what is wrong and what to do; a frame is refused
 //   before it changes

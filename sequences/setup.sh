@@ -6,6 +6,7 @@ packages=(
   libopenexr-dev libimath-dev   # EXR files, half floats
   libopenimageio-dev            # pictures: aperture images
   libtbb-dev                    # threads
+  libhwy-dev                    # SIMD with run-time dispatch
   libfmt-dev libcli11-dev       # text, command line
   nlohmann-json3-dev libtomlplusplus-dev
   libglm-dev                    # the demo shot's geometry
