@@ -1,12 +1,12 @@
 // A band of destination rows in the difference domain.
 #pragma once
 
-#include <tbb/cache_aligned_allocator.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "simd/aligned.h"
 
 namespace pullfocus {
 
@@ -65,9 +65,9 @@ class Band {
 
   BandLayout layout_;
   int y0_ = 0, y1_ = 0;
-  std::size_t stride_ = 0;                                                      // accumulators per row
-  std::size_t words_ = 0;                                                       // of dirty bits per row
-  std::vector<Accumulator, tbb::cache_aligned_allocator<Accumulator>> values_;  // vectors straddle fewer cache lines
+  std::size_t stride_ = 0;  // accumulators per row
+  std::size_t words_ = 0;   // of dirty bits per row
+  std::vector<Accumulator, CacheAligned<Accumulator>> values_;
   std::vector<std::uint64_t> dirty_;
 };
 
