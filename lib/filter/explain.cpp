@@ -15,14 +15,18 @@ float diameter(const Frame& frame, const CocFunction& coc, int x, int y) {
   return is_background(coc.kind, depth) ? coc.background() : coc(depth);
 }
 
-// Weight that `kernel` at offset (dx, dy) from the target gives it, mirror images included. Sizes of the
-// window.
+// Whether a coordinate is mirrored an odd number of times.
+bool is_flipped(int x, int size) noexcept { return (x >= 0 ? x / size : (size - 1 - x) / size) % 2 != 0; }
+
+// Weight that `kernel` at (sx, sy) gives the target, mirror images included (each with the kernel as it is: see
+// scatter/edges.h). Sizes of the window.
 std::int64_t weight_at(const Kernel& kernel, int sx, int sy, int tx, int ty, int width, int height) {
   std::int64_t weight = 0;
   for (int y = sy - kernel.radius_y; y <= sy + kernel.radius_y; ++y) {
     if (mirror(y, height) != ty) continue;
     for (int x = sx - kernel.radius_x; x <= sx + kernel.radius_x; ++x) {
-      if (mirror(x, width) == tx) weight += kernel.weight(x - sx, y - sy);
+      if (mirror(x, width) != tx) continue;
+      weight += kernel.weight(is_flipped(x, width) ? sx - x : x - sx, is_flipped(y, height) ? sy - y : y - sy);
     }
   }
   return weight;

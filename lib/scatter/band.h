@@ -32,6 +32,7 @@ struct BandLayout {
   int width = 0, height = 0;  // image
   int pad = 0;                // columns beyond each side that edges may fall on
   int lanes = kOpaqueLanes;
+  bool fold = true;  // what falls on the pads comes back mirrored; else it is dropped
 };
 
 // Rows [y0, y1) of the image, each padded on both sides. Owned by one thread at a time.
@@ -52,9 +53,9 @@ class Band {
   // Says that edges may fall on image columns [x0, x1) (pads included) of rows [ya, yb).
   void mark(int ya, int yb, int x0, int x1) noexcept;
 
-  // Turns row y from changes into sums, folds the pads back in, and hands every span of image columns that
-  // may be non-zero to take(x0, x1, values), values pointing at column x0. Spans are disjoint and ascending.
-  // The row is zero and clean when this returns.
+  // Turns row y from changes into sums, folds the pads back in (or drops them), and hands every span of image columns
+  // that may be non-zero to take(x0, x1, values), values pointing at column x0. Spans are disjoint and ascending. The
+  // row is zero and clean when this returns.
   template <typename Take>
   void finish_row(int y, Take&& take);
 
@@ -62,6 +63,11 @@ class Band {
   std::uint64_t* cells(int y) noexcept { return dirty_.data() + static_cast<std::size_t>(y - y0_) * words_; }
   void integrate(Accumulator* first, int columns) noexcept;
   void fold(Accumulator* image_row, int from, int to) noexcept;
+  void clear(Accumulator* image_row, int from, int to) const noexcept {
+    if (from >= to) return;
+    std::fill_n(image_row + static_cast<std::ptrdiff_t>(from) * layout_.lanes,
+                static_cast<std::size_t>(to - from) * static_cast<std::size_t>(layout_.lanes), Accumulator{0});
+  }
 
   BandLayout layout_;
   int y0_ = 0, y1_ = 0;
@@ -88,12 +94,17 @@ void Band::finish_row(int y, Take&& take) {
     const int from = cell * kCell - layout_.pad;
     const int to = std::min(end * kCell - layout_.pad, layout_.width + layout_.pad);
     integrate(image_row + static_cast<std::ptrdiff_t>(from) * lanes, to - from);
-    fold(image_row, from, to);
+    if (layout_.fold) {
+      fold(image_row, from, to);
+    } else {
+      clear(image_row, from, std::min(to, 0));
+      clear(image_row, std::max(from, layout_.width), to);
+    }
     const int x0 = std::max(from, 0), x1 = std::min(to, layout_.width);
     if (x0 < x1) {
       Accumulator* values = image_row + static_cast<std::ptrdiff_t>(x0) * lanes;
       take(x0, x1, static_cast<const Accumulator*>(values));
-      std::fill_n(values, static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(lanes), Accumulator{0});
+      clear(image_row, x0, x1);
     }
     cell = end;
   }

@@ -82,7 +82,7 @@ HWY_INLINE void WriteEdges(const Kernel& kernel, int x, int y, const Accumulator
   const int from = std::max(y - kernel.radius_y, image.y0), to = std::min(y + kernel.radius_y + 1, image.y1);
   for (int row = from; row < to; ++row) {
     Accumulator* const at_source = band.row(image.band_row(row)) + static_cast<std::ptrdiff_t>(x) * lanes;
-    for (const KernelEdge& edge : kernel.row(row - y)) {
+    for (const KernelEdge& edge : kernel.row((row - y) * image.direction)) {
       Accumulator* const out = at_source + static_cast<std::ptrdiff_t>(edge.dx) * lanes;
       const Accumulator* const in = steps + edge.step * n;
       if (edge.rising) {

@@ -19,7 +19,9 @@ struct Emission {
 };
 
 // A band as kernels see it: kernel rows Y in [y0, y1) land on band row `first + (Y - y0) * direction`. The
-// band itself, and its mirror images past the top and bottom border that kernels still reach.
+// band itself, and its mirror images past the top and bottom border that kernels still reach. Light comes back from
+// there as if the picture went on mirrored, every source with its kernel as it is: seen from the source, the kernel's
+// rows run backwards where `direction` is -1.
 struct BandImage {
   int y0, y1;
   int first, direction;

@@ -50,6 +50,53 @@ void write_sources(const KernelTable& kernels, const GroupWriters<lanes>& writer
 
 }  // namespace
 
+namespace {
+
+// The k-th image of a row beyond its left (k < 0) or right border, mirrored where k is odd.
+struct RowImage {
+  int k, width;
+  int column(int x) const noexcept { return k % 2 == 0 ? x + k * width : (k + 1) * width - 1 - x; }
+
+  // Those of `count` sources whose images lie within `reach` of the row, ascending in x.
+  template <int lanes>
+  int of(const Emission<lanes>* sources, int count, int reach, Emission<lanes>* out) const noexcept {
+    int n = 0;
+    for (int i = 0; i < count; ++i) {
+      const Emission<lanes>& source = sources[k % 2 == 0 ? i : count - 1 - i];
+      const int x = column(source.x);
+      if (x < -reach || x >= width + reach) continue;
+      out[n] = source;
+      out[n++].x = x;
+    }
+    return n;
+  }
+};
+
+}  // namespace
+
+// Kernels that are their own mirror images may fall on the pads, which are folded back in. For others this would turn
+// the light the wrong way round: there the sources are mirrored instead, and the pads are dropped.
+template <int lanes>
+void Scatter::write_beyond(Band& band, const EmissionRow<lanes>& row, const GroupWriters<lanes>& writers, int y,
+                           int reach, const BandImage& image) const {
+  Emission<lanes> images[kTileWidth];
+  const int most = reach / grid_.width + 1;
+  for (int k = -most; k <= most; ++k) {
+    if (k == 0) continue;
+    const RowImage beyond{k, grid_.width};
+    const auto write = [&](const Emission<lanes>* sources, int count) {
+      const int n = beyond.of(sources, count, reach, images);
+      if (n == 0) return;
+      const int ya = std::max(image.y0, y - reach_y_.back()), yb = std::min(image.y1, y + reach_y_.back() + 1);
+      const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
+      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, images[0].x - reach, images[n - 1].x + reach + 1);
+      write_sources(kernels_, writers, images, n, y, image, band);
+    };
+    write(row.emissions, row.count);
+    write(row.removed, row.removed_count);
+  }
+}
+
 template <int lanes>
 void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& sources,
                    const BandLayout& layout) const {
@@ -82,6 +129,7 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
                  [&]<SampleType type>() { collect<lanes, type>(sources, x, y + i, work.mask.rows[i], row); });
         write_sources(kernels_, writers, row.emissions, row.count, y + i, image, band);
         write_sources(kernels_, writers, row.removed, row.removed_count, y + i, image, band);
+        if (!layout.fold) write_beyond(band, row, writers, y + i, rx, image);
       }
     }
   }
@@ -101,7 +149,9 @@ void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int l
   y_first = std::max(y_first, 0);
   y_last = std::min(y_last, grid_.height);
   // Beyond the reach lies room for the last edge, and for the zeros that fill up a group of sources.
-  const BandLayout layout{grid_.width, grid_.height, reach_x(largest) + kWindow, lanes};
+  const bool fold = kernels_.symmetric();
+  const int pad = (fold ? 1 : 2) * reach_x(largest) + kWindow;
+  const BandLayout layout{grid_.width, grid_.height, pad, lanes, fold};
 
   // Low bands feed all threads evenly, but bands lower than the reach visit every source several times; one thread has
   // nothing to even out.

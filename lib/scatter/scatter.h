@@ -10,6 +10,7 @@
 #include "image/frame.h"
 #include "image/sanitise.h"
 #include "scatter/band.h"
+#include "scatter/edges.h"
 #include "scatter/kernel_table.h"
 #include "scatter/state.h"
 #include "scatter/tile_work.h"
@@ -26,6 +27,9 @@ struct Sources {
   const std::int16_t* pending = nullptr;
   const Sanitiser* sanitiser = nullptr;
 };
+
+template <int lanes>
+struct EmissionRow;
 
 class Scatter {
  public:
@@ -49,6 +53,10 @@ class Scatter {
  private:
   template <int lanes>
   void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout) const;
+
+  template <int lanes>
+  void write_beyond(Band& band, const EmissionRow<lanes>& row, const GroupWriters<lanes>& writers, int y, int reach,
+                    const BandImage& image) const;
 
   const KernelTable& kernels_;
   const TileGrid grid_;

@@ -14,14 +14,24 @@ int reflect(int x, int size) {
   return x;
 }
 
+// Whether that turns round an odd number of times.
+bool is_turned(int x, int size) {
+  bool turned = false;
+  for (; x < 0 || x >= size; turned = !turned) x = x < 0 ? -1 - x : 2 * size - 1 - x;
+  return turned;
+}
+
 namespace {
 
-// Calls visit(x, y, weight) for every pixel a kernel at (x, y) touches.
+// Calls visit(x, y, weight) for every pixel a kernel at (x, y) touches. The picture goes on mirrored beyond its
+// borders, with the kernels of the sources there as they are: so a pixel (dx, dy) away, seen in that mirror, gets the
+// weight of the offset turned round.
 template <typename Visit>
 void for_each_target(const Kernel& kernel, int x, int y, int width, int height, Visit&& visit) {
   for (int dy = -kernel.radius_y - 1; dy <= kernel.radius_y + 1; ++dy) {
     for (int dx = -kernel.radius_x - 1; dx <= kernel.radius_x + 1; ++dx) {
-      const std::int64_t weight = kernel.weight(dx, dy);
+      const int seen_dx = is_turned(x + dx, width) ? -dx : dx, seen_dy = is_turned(y + dy, height) ? -dy : dy;
+      const std::int64_t weight = kernel.weight(seen_dx, seen_dy);
       if (weight != 0) visit(reflect(x + dx, width), reflect(y + dy, height), weight);
     }
   }

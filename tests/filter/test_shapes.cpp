@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <set>
 
+#include "filter/incremental_filter.h"
 #include "image/error.h"
+#include "plain_frames.h"
 #include "scatter/kernel_table.h"
 #include "shapes.h"
 
@@ -130,6 +132,24 @@ TEST_P(Shapes, TheOverlapBoundHoldsForEverySignAndMirrorImage) {
     }
   }
   EXPECT_NEAR(table.overlap_bound(), sum / static_cast<double>(kWeightUnit), 1e-9);
+}
+
+// With one CoC over the whole picture, as near to a border as may be.
+TEST_P(Shapes, TheWeightOfAConstantCocIsOneUnitEverywhereBordersAndCornersIncluded) {
+  for (const Window& window : {Window{0, 0, 37, 23}, Window{0, 0, 9, 5}, Window{0, 0, 1, 6}, Window{0, 0, 90, 40}}) {
+    for (const float coc : {0.5f, 3.f, -7.5f, 12.f, -30.f, 30.f}) {
+      FilterOptions options = test::options_up_to(30);
+      options.kernel.shape = shape;
+      IncrementalFilter filter(window, options);
+      filter.filter(test::flat_frame(window, SampleType::float32, {0.7f, 0.7f, 0.7f}, coc), test::coc_as_depth);
+      const KernelTable table(options.kernel);
+      const auto unit = static_cast<Accumulator>(table.kernel(table.coc().index(coc)).total());
+      for (std::size_t i = 0; i < window.pixels(); ++i) {
+        ASSERT_EQ(filter.accumulators()[i * kOpaqueLanes + kWeightLane], unit) << coc << " at " << i;
+      }
+      test::for_each_in(window, [&](int x, int y) { ASSERT_NEAR(filter.result().get(x, y, 0), 0.7f, 1e-7f); });
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Shapes, testing::Range(std::size_t{0}, test::all_shapes().size()));
