@@ -20,9 +20,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // The integers nearest to v, ties to even, as std::llrint gives them in the default rounding mode; |v| < 2^62.
 //
-// Without an instruction for it, vectors of four are split at 2^32: hi, the multiple of 2^32 nearest to v, and lo = v - hi, exact
-// since its |lo| <= 2^31 needs no bit below v's last. Adding 1.5 * 2^52 rounds each to an integer, which then is the
-// low end of the sum's mantissa. hi is even, so ties of lo go where those of v go.
+// Without an instruction for it, vectors of four are split at 2^32: hi, the multiple of 2^32 nearest to v, and lo = v -
+// hi, exact since its |lo| <= 2^31 needs no bit below v's last. Adding 1.5 * 2^52 rounds each to an integer, which then
+// is the low end of the sum's mantissa. hi is even, so ties of lo go where those of v go.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Vec<hn::RebindToSigned<D>> RoundToInt64(D d, V v) {
 #if HWY_TARGET == HWY_SCALAR
