@@ -153,10 +153,10 @@ void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int l
   const int pad = (fold ? 1 : 2) * reach_x(largest) + kWindow;
   const BandLayout layout{grid_.width, grid_.height, pad, lanes, fold};
 
-  // Low bands feed all threads evenly, but bands lower than the reach visit every source several times.
+  // Low bands feed all threads evenly, but the lower they are, the more of them visit a source.
   const int span = y_last - y_first;
   const int share = (span + 4 * threads - 1) / (4 * threads);
-  const int band_rows = std::clamp(share, std::clamp(reach_y(largest), 16, 64), 128);
+  const int band_rows = std::clamp(share, std::clamp(reach_y(largest) / 2, 8, 64), 128);
   const int band_count = (span + band_rows - 1) / band_rows;
   tbb::parallel_for(0, band_count, [&](int b) {
     Band& band = bands_.local();
