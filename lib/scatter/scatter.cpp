@@ -89,7 +89,7 @@ void Scatter::write_beyond(Band& band, const EmissionRow<lanes>& row, const Grou
       if (n == 0) return;
       const int ya = std::max(image.y0, y - reach_y_.back()), yb = std::min(image.y1, y + reach_y_.back() + 1);
       const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
-      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, images[0].x - reach, images[n - 1].x + reach + 1);
+      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, images[0].x - reach, images[n - 1].x + reach + 2);
       write_sources(kernels_, writers, images, n, y, image, band);
     };
     write(row.emissions, row.count);

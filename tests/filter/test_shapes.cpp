@@ -7,6 +7,7 @@
 #include "filter/incremental_filter.h"
 #include "image/error.h"
 #include "plain_frames.h"
+#include "reference.h"
 #include "scatter/kernel_table.h"
 #include "shapes.h"
 
@@ -148,6 +149,28 @@ TEST_P(Shapes, TheWeightOfAConstantCocIsOneUnitEverywhereBordersAndCornersInclud
         ASSERT_EQ(filter.accumulators()[i * kOpaqueLanes + kWeightLane], unit) << coc << " at " << i;
       }
       test::for_each_in(window, [&](int x, int y) { ASSERT_NEAR(filter.result().get(x, y, 0), 0.7f, 1e-7f); });
+    }
+  }
+}
+
+// Whichever cell of a band a footprint, or its image beyond the border, ends in.
+TEST_P(Shapes, ASingleChangeIsTakenBackWhereverItAndItsMirrorImagesEnd) {
+  FilterOptions options = test::options_up_to(12);
+  options.kernel.shape = shape;
+  options.threads = 2;
+  const auto kernels = std::make_shared<const KernelTable>(options.kernel);
+  for (int width = 5; width < 80; width += 3) {
+    const Window window{0, 0, width, 19};
+    IncrementalFilter filter(window, options, kernels);
+    Frame frame = test::flat_frame(window, SampleType::half, {0.5f, 0.25f, 1}, 12);
+    filter.filter(frame, test::coc_as_depth);
+    for (const int x : {0, 1, width / 2, width - 2, width - 1}) {
+      frame.colour.set(x, 9 + x % 3, 0, 7);
+      frame.depth.at(x, 9 + x % 3) = x % 2 ? -12.f : 11;
+      ASSERT_EQ(filter.filter(frame, test::coc_as_depth).mode, ScatterMode::incremental);
+      ASSERT_TRUE(
+          std::ranges::equal(filter.accumulators(), test::exact_sums(filter.committed(), *kernels, filter.lanes())))
+          << width << " wide, " << x;
     }
   }
 }
