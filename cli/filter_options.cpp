@@ -24,7 +24,8 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
   app.add_option("--blade-roundness", a.kernel.blade_roundness, "of polygon:N: 0 straight blades, 1 a disc")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--visibility", a.visibility, "none: plain scatter")->group(group)->capture_default_str();
+  app.add_option("--visibility", a.visibility,
+                 "what lies before what: auto (layers), layers:BORDERS (CoC diameters in pixels, -2,2), none")->group(group)->capture_default_str();
   app.add_option("--budget", a.budget,
                  "share (15%) or number (200000) of changed pixels to update a frame, or time for it (40ms)")
       ->group(group)
@@ -122,9 +123,7 @@ FilterOptions filter_options(const FilterArguments& a, const ShotFacts& facts) {
   } else if (!a.output_type.empty()) {
     throw Error(ErrorCode::usage, "--output-type '" + a.output_type + "' is not known: use half or float");
   }
-  if (a.visibility != "none") {
-    throw Error(ErrorCode::usage, "--visibility '" + a.visibility + "' is not known: use none");
-  }
+  options.visibility = Visibility::parse(a.visibility);
   parse_method(a.method);
   validate(options);
   return options;

@@ -14,7 +14,7 @@ class App;
 namespace pullfocus::cli {
 
 struct FilterArguments {
-  std::string method = "incremental", visibility = "none", budget = "100%", output_type;
+  std::string method = "incremental", visibility = "auto", budget = "100%", output_type;
   std::string order{name(Order::gain)}, colour_distance{name(ColourDistance::rgb)}, coc_threshold = "0";
   KernelArguments kernel;
   double coc_step = KernelOptions{}.coc_step, max_coc = KernelOptions{}.max_coc_px;

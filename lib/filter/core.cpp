@@ -24,6 +24,11 @@ const Window& checked(const Window& window) {
   return window;
 }
 
+std::span<const double> borders(const Visibility& visibility) noexcept {
+  if (visibility.kind == Visibility::Kind::none) return {};
+  return visibility.borders;
+}
+
 }  // namespace
 
 FilterCore::FilterCore(const Window& state_window, const FilterOptions& filter_options,
@@ -34,7 +39,8 @@ FilterCore::FilterCore(const Window& state_window, const FilterOptions& filter_o
       kernels(table_or_new(std::move(table), options)),
       sanitiser(kernels->options().max_radiance),
       arena(threads),
-      scatter(*kernels, window.width(), window.height()) {}
+      scatter(*kernels, window.width(), window.height()),
+      layers(kernels->coc(), borders(options.visibility)) {}
 
 void FilterCore::check(const Frame& frame) const {
   if (frame.window() == window && frame.depth.window() == window) return;

@@ -41,6 +41,7 @@ struct FilterCore {
   Sanitiser sanitiser;
   tbb::task_arena arena;
   Scatter scatter;
+  Layers layers;  // a single one without visibility
 };
 
 // Same values, stored as floats.

@@ -19,8 +19,7 @@ IncrementalFilter::IncrementalFilter(const Window& state_window, const FilterOpt
 void IncrementalFilter::reset() {
   state_.reset(core_.window, SampleType::half);
   pending_.assign(core_.window.pixels(), 0);
-  lanes_ = kOpaqueLanes;
-  sums_.assign(core_.window.pixels() * static_cast<std::size_t>(lanes_), 0);
+  sums_.reset(core_.window.width(), core_.window.height(), core_.layers.count(), kOpaqueLanes);
   uncommitted_ = static_cast<std::int64_t>(core_.window.pixels());
   edges_ = 0;
   waiting_.clear();
@@ -53,20 +52,6 @@ void IncrementalFilter::prepare_result(SampleType type) {
   for (int y = 0; y < core_.window.height(); ++y) dirty_.mark(y, 0, core_.window.width());
 }
 
-// Until now every alpha was exactly 1, so the alpha sums are the weights.
-void IncrementalFilter::widen_lanes() {
-  const std::size_t pixels = core_.window.pixels();
-  std::vector<Accumulator> wide(pixels * kAlphaLanes);
-  for (std::size_t p = 0; p < pixels; ++p) {
-    const Accumulator* in = &sums_[p * kOpaqueLanes];
-    Accumulator* out = &wide[p * kAlphaLanes];
-    std::copy_n(in, kOpaqueLanes, out);
-    out[kAlphaLane] = in[kWeightLane];
-  }
-  sums_ = std::move(wide);
-  lanes_ = kAlphaLanes;
-}
-
 Pending IncrementalFilter::pending() const {
   return {*frame_, state_, pending_, *core_.kernels, core_.sanitiser, result_, round_};
 }
@@ -83,7 +68,7 @@ const Stats& IncrementalFilter::filter(const Frame& frame, const CocFunction& co
 
     const Stopwatch detect;
     Changes changes = find_changes(*frame_, coc, core_.kernels->coc(), core_.sanitiser, state_, thresholds(), pending_);
-    if (!changes.opaque && lanes_ == kOpaqueLanes) widen_lanes();
+    if (!changes.opaque && lanes() == kOpaqueLanes) sums_.widen();
     const std::vector<TileWork> selected = select(changes);
     FilterCore::report(changes.findings, stats_);
     stats_.changed = changes.pixels;
@@ -175,11 +160,16 @@ void IncrementalFilter::show_uncommitted(const Frame& frame) {
 
 void IncrementalFilter::resolve_dirty() {
   std::vector<std::int64_t> resolved(static_cast<std::size_t>(core_.window.height()));
-  const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
   tbb::parallel_for(0, core_.window.height(), [&](int y) {
+    const Accumulator* layers[kMostLayers];
+    const auto count = static_cast<std::size_t>(sums_.layers());
     dirty_.drain_row(y, [&](int x0, int x1) {
-      const Accumulator* values = &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes];
-      resolve_span(values, lanes_, x0, x1, y, state_.colour, result_);
+      for (int x = x0; x < x1;) {
+        const int end = std::min((x / kTileWidth + 1) * kTileWidth, x1);
+        for (std::size_t l = 0; l < count; ++l) layers[l] = sums_.at(static_cast<int>(l), x, y);
+        resolve_layers({layers, count}, lanes(), x, end, y, state_.colour, result_);
+        x = end;
+      }
       resolved[static_cast<std::size_t>(y)] += x1 - x0;
     });
   });

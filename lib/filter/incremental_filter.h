@@ -19,6 +19,7 @@
 #include "filter/pace.h"
 #include "importance/select.h"
 #include "importance/slices.h"
+#include "resolve/layer_sums.h"
 #include "resolve/spans.h"
 
 namespace pullfocus {
@@ -34,17 +35,17 @@ class IncrementalFilter final : public Filter {
   const Window& result_window() const noexcept override { return result_window_; }
   void reset() override;
 
-  // For tests and tools: the committed state, and its sums, lanes() values a pixel, row by row.
+  // For tests and tools: the committed state, and its sums by layer, lanes() values a pixel, row by row.
   const SourceState& committed() const noexcept { return state_; }
-  std::span<const Accumulator> accumulators() const noexcept { return sums_; }
-  int lanes() const noexcept { return lanes_; }
+  std::vector<Accumulator> accumulators(int layer = 0) const { return sums_.plane(layer); }
+  const Layers& layers() const noexcept { return core_.layers; }
+  int lanes() const noexcept { return sums_.lanes(); }
 
  private:
   class Call;
 
   const Frame& in_state_type(const Frame& frame);
   void prepare_result(SampleType type);
-  void widen_lanes();
   Pending pending() const;
   ChangeThresholds thresholds() const noexcept;
   std::vector<TileWork> select(const Changes& changes) const;
@@ -56,6 +57,7 @@ class IncrementalFilter final : public Filter {
   bool rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept;
   void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
   void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges);
+  void make_room(const LayerWork& work);
   void resolve_dirty();
   void count_uncommitted();
   void show_uncommitted(const Frame& frame);
@@ -63,8 +65,7 @@ class IncrementalFilter final : public Filter {
   FilterCore core_;
   SourceState state_;
   std::vector<std::int16_t> pending_;
-  std::vector<Accumulator> sums_;
-  int lanes_ = kOpaqueLanes;
+  LayerSums sums_;
   WaitingTimes waiting_;
   Pace pace_;
   std::uint32_t round_ = 0;       // number of calls

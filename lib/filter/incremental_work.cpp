@@ -4,7 +4,6 @@
 #include "filter/call.h"
 #include "filter/incremental_filter.h"
 #include "resolve/resolve.h"
-#include "scatter/sums.h"
 
 namespace pullfocus {
 
@@ -71,14 +70,28 @@ bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges, std::int64_t 
   return updated > 0 && 5 * edges.written + 32 * updated > 4 * edges_after + 32 * pixels;
 }
 
+// For all that the layer's tiles may reach; folded light stays within that.
+void IncrementalFilter::make_room(const LayerWork& work) {
+  const TileGrid grid = grid_of(core_.window);
+  for (const TileWork& tile : work.tiles) {
+    const TileMask::Bounds part = tile.mask.bounds();
+    const int x = grid.x(tile.tile), y = grid.y(tile.tile);
+    sums_.make_room(work.layer, grow({x + part.x0, y + part.y0, x + part.x1, y + part.y1},
+                                     core_.scatter.reach_x(tile.max_index), core_.scatter.reach_y(tile.max_index)));
+  }
+}
+
 void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges) {
-  const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
-  core_.scatter.run(selected, {&state_, frame_, pending_.data(), &core_.sanitiser}, lanes_, core_.threads,
-                    [&](int y, int x0, int x1, const Accumulator* values) {
-                      Accumulator* sums = &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes];
-                      const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
-                      add_sums(values, n, sums);
-                      dirty_.mark(y, x0, x1);
+  const std::vector<LayerWork> work = by_layer(selected, core_.layers, state_, pending_.data());
+  for (const LayerWork& layer : work) make_room(layer);
+  core_.scatter.run(work, {&state_, frame_, pending_.data(), &core_.sanitiser}, lanes(), core_.threads,
+                    [&](int y, std::span<const LayerRow> rows) {
+                      for (const LayerRow& row : rows) {
+                        for (const ColumnSpan& span : row.spans) {
+                          sums_.add(row.layer, y, span, row.values + static_cast<std::ptrdiff_t>(span.x0) * lanes());
+                          dirty_.mark(y, span.x0, span.x1);
+                        }
+                      }
                     });
   commit(*frame_, core_.sanitiser, pending_, selected, state_);
   edges_ += edges.committed;
@@ -91,14 +104,17 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Edge
 void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges) {
   edges_ += edges.committed;
   commit(*frame_, core_.sanitiser, pending_, selected, state_);
-  std::fill(sums_.begin(), sums_.end(), Accumulator{0});
-  const auto lanes = static_cast<std::size_t>(lanes_), width = static_cast<std::size_t>(core_.window.width());
-  core_.scatter.run(whole_state(state_), {&state_}, lanes_, core_.threads,
-                    [&](int y, int x0, int x1, const Accumulator* values) {
-                      const std::size_t n = static_cast<std::size_t>(x1 - x0) * lanes;
-                      std::copy_n(values, n, &sums_[(static_cast<std::size_t>(y) * width + x0) * lanes]);
-                      resolve_span(values, lanes_, x0, x1, y, state_.colour, result_);
-                    });
+  sums_.clear();
+  const std::vector<LayerWork> work = by_layer(whole_state(state_), core_.layers, state_, nullptr);
+  for (const LayerWork& layer : work) make_room(layer);
+  core_.scatter.run(work, {&state_}, lanes(), core_.threads, [&](int y, std::span<const LayerRow> rows) {
+    for (const LayerRow& row : rows) {
+      for (const ColumnSpan& span : row.spans) {
+        sums_.add(row.layer, y, span, row.values + static_cast<std::ptrdiff_t>(span.x0) * lanes());
+      }
+    }
+    resolve_rows(rows, lanes(), y, state_.colour, result_);
+  });
   dirty_.reset(core_.window.width(), core_.window.height());
   stats_.edges += edges_;
   stats_.updated += count_pixels(selected);

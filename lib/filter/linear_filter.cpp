@@ -29,9 +29,10 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
 
     const Stopwatch scatter;
     const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
-    core_.scatter.run(tiles_, {&state_}, lanes, core_.threads, [&](int y, int x0, int x1, const Accumulator* values) {
-      resolve_span(values, lanes, x0, x1, y, state_.colour, result_);
-    });
+    core_.scatter.run(by_layer(tiles_, core_.layers, state_, nullptr), {&state_}, lanes, core_.threads,
+                      [&](int y, std::span<const LayerRow> rows) {
+                        resolve_rows(rows, lanes, y, state_.colour, result_);
+                      });
     stats_.scatter_ms = scatter.ms();
   });
   stats_.mode = ScatterMode::rebuild;

@@ -35,7 +35,7 @@ class SliceQueue {
   std::int64_t row_edges(const TileWork& work, int row) const noexcept;
 
   const std::vector<TileWork>& tiles_;
-  const Pending& pending_;
+  const Pending pending_;
   std::vector<std::size_t> by_importance_, by_waiting_;  // positions in tiles_, first comes first
   std::size_t next_important_ = 0, next_waiting_ = 0;
   std::vector<std::uint8_t> rows_done_;  // of every tile; kTileHeight: handed out

@@ -111,6 +111,68 @@ bool ResolveSpan(const Accumulator* values, int lanes, int n, SampleType type, v
                                : Resolve<SampleType::float32, kAlphaLanes>(values, n, pixels);
 }
 
+// One pixel of several layers, whose sums are given. Returns false if it has no weight.
+template <int lanes>
+HWY_INLINE bool Combine(const std::int64_t* const* layers, std::size_t count, std::size_t at, float* HWY_RESTRICT out) {
+  constexpr double unit = static_cast<double>(kWeightUnit);
+  const std::int64_t* only = nullptr;
+  int reached = 0;
+  for (std::size_t l = 0; l < count; ++l) {
+    const std::int64_t* sums = layers[l] + at;
+    if (sums[kWeightLane] == 0) continue;
+    only = sums;
+    ++reached;
+  }
+  if (reached == 0) return false;
+  double colour[4] = {}, scale = 0;
+  if (reached == 1) {
+    scale = 1.0 / static_cast<double>(only[kWeightLane]);
+    for (int c = 0; c < 3; ++c) colour[c] = static_cast<double>(only[c]);
+    if constexpr (lanes == kAlphaLanes) colour[3] = static_cast<double>(only[kAlphaLane]);
+  } else {
+    double free = unit, accepted = 0;
+    for (std::size_t l = 0; l < count && free > 0; ++l) {
+      const std::int64_t* sums = layers[l] + at;
+      if (sums[kWeightLane] == 0) continue;
+      const double weight = static_cast<double>(sums[kWeightLane]);
+      const double taken = weight < free ? weight : free;
+      const double share = taken / weight;
+      for (int c = 0; c < 3; ++c) colour[c] += static_cast<double>(sums[c]) * share;
+      if constexpr (lanes == kAlphaLanes) colour[3] += static_cast<double>(sums[kAlphaLane]) * share;
+      accepted += taken;
+      free -= taken;
+    }
+    scale = 1.0 / accepted;
+  }
+  for (int c = 0; c < 4; ++c) out[c] = static_cast<float>(colour[c] * scale);
+  if constexpr (lanes == kOpaqueLanes) out[3] = 1.f;
+  return true;
+}
+
+// n <= kChunk pixels of layers that all have sums there. Returns false if a pixel had no weight.
+template <SampleType type, int lanes>
+bool ResolveChunk(const Accumulator* const* layers, std::size_t count, int n, void* pixels) {
+  const std::int64_t* sums[kMostLayers];
+  for (std::size_t l = 0; l < count; ++l) sums[l] = reinterpret_cast<const std::int64_t*>(layers[l]);
+  float colours[4 * kChunk] = {};
+  bool all = true;
+  for (int i = 0; i < n; ++i) {
+    all &= Combine<lanes>(sums, count, static_cast<std::size_t>(i) * lanes, colours + 4 * i);
+  }
+  Store(colours, n, static_cast<Pixel<type>*>(pixels));
+  return all;
+}
+
+bool ResolveLayers(const Accumulator* const* layers, std::size_t count, int lanes, int n, SampleType type,
+                   void* pixels) {
+  if (type == SampleType::half) {
+    return lanes == kOpaqueLanes ? ResolveChunk<SampleType::half, kOpaqueLanes>(layers, count, n, pixels)
+                                 : ResolveChunk<SampleType::half, kAlphaLanes>(layers, count, n, pixels);
+  }
+  return lanes == kOpaqueLanes ? ResolveChunk<SampleType::float32, kOpaqueLanes>(layers, count, n, pixels)
+                               : ResolveChunk<SampleType::float32, kAlphaLanes>(layers, count, n, pixels);
+}
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace pullfocus
@@ -120,18 +182,69 @@ HWY_AFTER_NAMESPACE();
 namespace pullfocus {
 
 HWY_EXPORT(ResolveSpan);
+HWY_EXPORT(ResolveLayers);
+
+namespace {
+
+// A pixel without weight takes its own colour.
+void take_own(const ColourImage& own, int x, int y, ColourImage& out) noexcept {
+  for (int c = 0; c < 4; ++c) {
+    const float value = own.get(x, y, c);
+    out.set(x, y, c, out.type() == SampleType::half ? std::clamp(value, -65504.f, 65504.f) : value);
+  }
+}
+
+bool has_weight(const Accumulator* values, int lanes, int n) noexcept {
+  Accumulator any = 0;
+  for (int i = 0; i < n; ++i) any |= values[i * lanes + kWeightLane];
+  return any != 0;
+}
+
+}  // namespace
 
 void resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, const ColourImage& own,
                   ColourImage& out) noexcept {
   const int x = out.window().x0 + x0, row = out.window().y0 + y;
   if (HWY_DYNAMIC_DISPATCH(ResolveSpan)(values, lanes, x1 - x0, out.type(), out.pixel(x, row))) return;
   for (int i = 0; i < x1 - x0; ++i, values += lanes) {
-    if (values[kWeightLane] != 0) continue;
-    for (int c = 0; c < 4; ++c) {
-      const float value = own.get(x + i, row, c);
-      out.set(x + i, row, c, out.type() == SampleType::half ? std::clamp(value, -65504.f, 65504.f) : value);
+    if (values[kWeightLane] == 0) take_own(own, x + i, row, out);
+  }
+}
+
+void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
+                    const ColourImage& own, ColourImage& out) noexcept {
+  constexpr int chunk = 32;  // pixels that are looked at together
+  for (int x = x0; x < x1; x += chunk) {
+    const int n = std::min(chunk, x1 - x);
+    const Accumulator* present[kMostLayers];
+    std::size_t count = 0;
+    for (const Accumulator* layer : layers) {
+      if (layer == nullptr) continue;
+      const Accumulator* values = layer + static_cast<std::ptrdiff_t>(x - x0) * lanes;
+      if (layers.size() == 1 || has_weight(values, lanes, n)) present[count++] = values;
+    }
+    if (count == 1) {
+      resolve_span(present[0], lanes, x, x + n, y, own, out);
+      continue;
+    }
+    const int column = out.window().x0 + x, row = out.window().y0 + y;
+    if (count > 0 &&
+        HWY_DYNAMIC_DISPATCH(ResolveLayers)(present, count, lanes, n, out.type(), out.pixel(column, row))) {
+      continue;
+    }
+    for (int i = 0; i < n; ++i) {
+      Accumulator any = 0;
+      for (std::size_t l = 0; l < count; ++l) any |= present[l][i * lanes + kWeightLane];
+      if (any == 0) take_own(own, column + i, row, out);
     }
   }
+}
+
+void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own,
+                  ColourImage& out) noexcept {
+  const Accumulator* layers[kMostLayers];
+  for (std::size_t l = 0; l < rows.size(); ++l) layers[l] = rows[l].values;
+  resolve_layers({layers, rows.size()}, lanes, 0, out.window().width(), y, own, out);
 }
 
 }  // namespace pullfocus

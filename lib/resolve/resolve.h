@@ -1,8 +1,12 @@
 // From accumulators to pixels.
 #pragma once
 
+#include <span>
+
 #include "image/frame.h"
 #include "scatter/band.h"
+#include "scatter/kernel.h"
+#include "scatter/scatter.h"
 
 namespace pullfocus {
 
@@ -12,5 +16,20 @@ namespace pullfocus {
 // clamped to +-65504: a finite input never becomes infinite.
 void resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, const ColourImage& own,
                   ColourImage& out) noexcept;
+
+// The same from the sums of several layers, nearest first (null: nothing has reached there), in which a weight of
+// kWeightUnit covers a pixel. Each layer gives at most what those before it have left free (DESIGN section 6):
+//
+//   accepted_i = min(weight_i, 1 - sum of accepted before)       colour = sum accepted_i num_i / weight_i / sum accepted_i
+//
+// so a sharp near surface lets nothing through, a blurred one lets the rest through, a surface that a layer's border cuts
+// keeps its whole weight, and what no source reached is filled by those that did. A pixel that one layer alone reaches is
+// num / weight, with the bits that resolve_span() gives. At most kMostLayers layers.
+inline constexpr std::size_t kMostLayers = 16;
+void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
+                    const ColourImage& own, ColourImage& out) noexcept;
+
+// The whole row from rows as Scatter hands them over. Where no layer has a span a pixel has no weight.
+void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out) noexcept;
 
 }  // namespace pullfocus

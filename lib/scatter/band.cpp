@@ -49,4 +49,37 @@ void Band::fold(Accumulator* image_row, int from, int to) noexcept {
   for (int x = std::max(from, layout_.width); x < to; ++x) fold_column(x);
 }
 
+void Band::finish_row(int y, std::vector<ColumnSpan>& spans) {
+  spans.clear();
+  const std::uint64_t* const bits = cells(y);
+  Accumulator* const image_row = row(y);
+  const int cell_count = (layout_.width + 2 * layout_.pad + kCell - 1) / kCell;
+  const auto is_dirty = [&](int cell) { return (bits[cell / 64] >> (cell % 64) & 1) != 0; };
+  for (int cell = 0; cell < cell_count; ++cell) {
+    if (!is_dirty(cell)) continue;
+    int end = cell + 1;
+    while (end < cell_count && is_dirty(end)) ++end;
+    // Every source's footprint lies in one stretch of dirty cells, and so does its mirror image (a source at
+    // x >= 0 that reaches down to x - r < 0 is mirrored to at most r - x - 1 < x + r): sums begin and end at
+    // 0.
+    const int from = cell * kCell - layout_.pad;
+    const int to = std::min(end * kCell - layout_.pad, layout_.width + layout_.pad);
+    integrate(image_row + static_cast<std::ptrdiff_t>(from) * layout_.lanes, to - from);
+    if (layout_.fold) {
+      fold(image_row, from, to);
+    } else {
+      clear(image_row, from, std::min(to, 0));
+      clear(image_row, std::max(from, layout_.width), to);
+    }
+    const int x0 = std::max(from, 0), x1 = std::min(to, layout_.width);
+    if (x0 < x1) spans.push_back({x0, x1});
+    cell = end;
+  }
+}
+
+void Band::clear_row(int y, std::span<const ColumnSpan> spans) noexcept {
+  for (const ColumnSpan& span : spans) clear(row(y), span.x0, span.x1);
+  std::fill_n(cells(y), words_, std::uint64_t{0});
+}
+
 }  // namespace pullfocus

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "simd/aligned.h"
@@ -35,6 +36,11 @@ struct BandLayout {
   bool fold = true;  // what falls on the pads comes back mirrored; else it is dropped
 };
 
+// Columns [x0, x1), x0 < x1.
+struct ColumnSpan {
+  int x0, x1;
+};
+
 // Rows [y0, y1) of the image, each padded on both sides. Owned by one thread at a time.
 class Band {
  public:
@@ -53,11 +59,12 @@ class Band {
   // Says that edges may fall on image columns [x0, x1) (pads included) of rows [ya, yb).
   void mark(int ya, int yb, int x0, int x1) noexcept;
 
-  // Turns row y from changes into sums, folds the pads back in (or drops them), and hands every span of image columns
-  // that may be non-zero to take(x0, x1, values), values pointing at column x0. Spans are disjoint and ascending. The
-  // row is zero and clean when this returns.
-  template <typename Take>
-  void finish_row(int y, Take&& take);
+  // Turns row y from changes into sums, folds the pads back in (or drops them), and says in which spans of image columns
+  // it may be non-zero: disjoint and ascending. Elsewhere the row is zero.
+  void finish_row(int y, std::vector<ColumnSpan>& spans);
+
+  // Makes a finished row zero and clean again.
+  void clear_row(int y, std::span<const ColumnSpan> spans) noexcept;
 
  private:
   std::uint64_t* cells(int y) noexcept { return dirty_.data() + static_cast<std::size_t>(y - y0_) * words_; }
@@ -76,39 +83,5 @@ class Band {
   std::vector<Accumulator, CacheAligned<Accumulator>> values_;
   std::vector<std::uint64_t> dirty_;
 };
-
-template <typename Take>
-void Band::finish_row(int y, Take&& take) {
-  std::uint64_t* const bits = cells(y);
-  Accumulator* const image_row = row(y);
-  const int cell_count = (layout_.width + 2 * layout_.pad + kCell - 1) / kCell;
-  const auto is_dirty = [&](int cell) { return (bits[cell / 64] >> (cell % 64) & 1) != 0; };
-  const int lanes = layout_.lanes;
-  for (int cell = 0; cell < cell_count; ++cell) {
-    if (!is_dirty(cell)) continue;
-    int end = cell + 1;
-    while (end < cell_count && is_dirty(end)) ++end;
-    // Every source's footprint lies in one stretch of dirty cells, and so does its mirror image (a source at
-    // x >= 0 that reaches down to x - r < 0 is mirrored to at most r - x - 1 < x + r): sums begin and end at
-    // 0.
-    const int from = cell * kCell - layout_.pad;
-    const int to = std::min(end * kCell - layout_.pad, layout_.width + layout_.pad);
-    integrate(image_row + static_cast<std::ptrdiff_t>(from) * lanes, to - from);
-    if (layout_.fold) {
-      fold(image_row, from, to);
-    } else {
-      clear(image_row, from, std::min(to, 0));
-      clear(image_row, std::max(from, layout_.width), to);
-    }
-    const int x0 = std::max(from, 0), x1 = std::min(to, layout_.width);
-    if (x0 < x1) {
-      Accumulator* values = image_row + static_cast<std::ptrdiff_t>(x0) * lanes;
-      take(x0, x1, static_cast<const Accumulator*>(values));
-      clear(image_row, x0, x1);
-    }
-    cell = end;
-  }
-  std::fill_n(bits, words_, std::uint64_t{0});
-}
 
 }  // namespace pullfocus

@@ -36,7 +36,7 @@ void collect(const Sources& sources, int x, int y, std::uint64_t mask, EmissionR
   row.count = row.removed_count = 0;
   if (sources.frame == nullptr) {
     for_each_pixel(mask, [&](int i) {
-      if (old_index[i] == kNeverCommitted) return;
+      if (!sources.takes(old_index[i])) return;
       Emission<lanes>& e = row.emissions[row.count++];
       e.x = x + i;
       e.index = old_index[i];
@@ -48,14 +48,19 @@ void collect(const Sources& sources, int x, int y, std::uint64_t mask, EmissionR
       reinterpret_cast<const Pixel<type>*>(sources.frame->colour.pixel(window.x0 + x, window.y0 + y));
   const std::int16_t* new_index = sources.pending + offset;
   for_each_pixel(mask, [&](int i) {
-    Emission<lanes>& e = row.emissions[row.count++];
-    e.x = x + i;
-    e.index = new_index[i];
-    colour_lanes<lanes, type>((*sources.sanitiser)(new_colours[i]), e.plus);
-    std::fill_n(e.minus, lanes, 0.0);
-    if (old_index[i] == new_index[i]) {
-      colour_lanes<lanes, type>(old_colours[i], e.minus);
-    } else if (old_index[i] != kNeverCommitted) {
+    const bool same = old_index[i] == new_index[i];
+    if (sources.takes(new_index[i])) {
+      Emission<lanes>& e = row.emissions[row.count++];
+      e.x = x + i;
+      e.index = new_index[i];
+      colour_lanes<lanes, type>((*sources.sanitiser)(new_colours[i]), e.plus);
+      if (same) {
+        colour_lanes<lanes, type>(old_colours[i], e.minus);
+      } else {
+        std::fill_n(e.minus, lanes, 0.0);
+      }
+    }
+    if (!same && sources.takes(old_index[i])) {
       Emission<lanes>& r = row.removed[row.removed_count++];
       r.x = x + i;
       r.index = old_index[i];

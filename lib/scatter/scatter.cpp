@@ -136,18 +136,30 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
 }
 
 void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads, const Take& take) {
-  if (tiles.empty()) return;
+  const LayerWork all{0, sources.range, {tiles.begin(), tiles.end()}};
+  run(std::span(&all, 1), sources, lanes, threads, [&](int y, std::span<const LayerRow> rows) {
+    for (const ColumnSpan& span : rows[0].spans) {
+      take(y, span.x0, span.x1, rows[0].values + static_cast<std::ptrdiff_t>(span.x0) * lanes);
+    }
+  });
+}
+
+void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int lanes, int threads,
+                  const TakeRow& take) {
   int largest = 0, y_first = grid_.height, y_last = 0;
-  for (const TileWork& work : tiles) {
-    const int reach = reach_y(work.max_index);
-    const TileMask::Bounds part = work.mask.bounds();
-    largest = std::max(largest, work.max_index);
-    y_first = std::min(y_first, grid_.y(work.tile) + part.y0 - reach);
-    y_last = std::max(y_last, grid_.y(work.tile) + part.y1 + reach);
+  for (const LayerWork& layer : work) {
+    for (const TileWork& tile : layer.tiles) {
+      const int reach = reach_y(tile.max_index);
+      const TileMask::Bounds part = tile.mask.bounds();
+      largest = std::max(largest, tile.max_index);
+      y_first = std::min(y_first, grid_.y(tile.tile) + part.y0 - reach);
+      y_last = std::max(y_last, grid_.y(tile.tile) + part.y1 + reach);
+    }
   }
   // Mirrored rows land no farther from the border than the reach beyond it, so these bounds hold them too.
   y_first = std::max(y_first, 0);
   y_last = std::min(y_last, grid_.height);
+  if (y_first >= y_last) return;
   // Beyond the reach lies room for the last edge, and for the zeros that fill up a group of sources.
   const bool fold = kernels_.symmetric();
   const int pad = (fold ? 1 : 2) * reach_x(largest) + kWindow;
@@ -159,16 +171,29 @@ void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int l
   const int band_rows = std::clamp(share, std::clamp(reach_y(largest) / 2, 8, 64), 128);
   const int band_count = (span + band_rows - 1) / band_rows;
   tbb::parallel_for(0, band_count, [&](int b) {
-    Band& band = bands_.local();
-    const int y0 = y_first + b * band_rows;
-    band.begin(layout, y0, std::min(y0 + band_rows, y_last));
-    if (lanes == kOpaqueLanes) {
-      fill<kOpaqueLanes>(band, tiles, sources, layout);
-    } else {
-      fill<kAlphaLanes>(band, tiles, sources, layout);
+    std::vector<Band>& bands = bands_.local();
+    bands.resize(std::max(bands.size(), work.size()));
+    const int y0 = y_first + b * band_rows, y1 = std::min(y0 + band_rows, y_last);
+    for (std::size_t l = 0; l < work.size(); ++l) {
+      Sources of_layer = sources;
+      of_layer.range = work[l].range;
+      bands[l].begin(layout, y0, y1);
+      if (lanes == kOpaqueLanes) {
+        fill<kOpaqueLanes>(bands[l], work[l].tiles, of_layer, layout);
+      } else {
+        fill<kAlphaLanes>(bands[l], work[l].tiles, of_layer, layout);
+      }
     }
-    for (int y = band.y0(); y < band.y1(); ++y) {
-      band.finish_row(y, [&](int x0, int x1, const Accumulator* values) { take(y, x0, x1, values); });
+    std::vector<std::vector<ColumnSpan>> spans(work.size());
+    std::vector<LayerRow> rows;
+    for (int y = y0; y < y1; ++y) {
+      rows.clear();
+      for (std::size_t l = 0; l < work.size(); ++l) {
+        bands[l].finish_row(y, spans[l]);
+        if (!spans[l].empty()) rows.push_back({work[l].layer, bands[l].row(y), spans[l]});
+      }
+      if (!rows.empty()) take(y, rows);
+      for (std::size_t l = 0; l < work.size(); ++l) bands[l].clear_row(y, spans[l]);
     }
   });
 }

@@ -4,6 +4,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "scatter/band.h"
 #include "scatter/edges.h"
 #include "scatter/kernel_table.h"
+#include "scatter/layers.h"
 #include "scatter/state.h"
 #include "scatter/tile_work.h"
 
@@ -26,6 +28,18 @@ struct Sources {
   const Frame* frame = nullptr;
   const std::int16_t* pending = nullptr;
   const Sanitiser* sanitiser = nullptr;
+
+  // Signed indices whose sources count; the others are left out.
+  Layers::Range range{-kMostIndex, kMostIndex};
+  static constexpr std::int16_t kMostIndex = std::numeric_limits<std::int16_t>::max();
+  bool takes(std::int16_t index) const noexcept { return index >= range.first && index <= range.last; }
+};
+
+// One finished row of one layer: sums at image columns within the spans, zeros at the others.
+struct LayerRow {
+  int layer;
+  const Accumulator* values;  // at column 0
+  std::span<const ColumnSpan> spans;
 };
 
 template <int lanes>
@@ -46,6 +60,11 @@ class Scatter {
   // on it.
   void run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads, const Take& take);
 
+  // The same for several layers, whose ranges replace that of `sources`. A row is handed over once, with the layers that
+  // may be non-zero in it, in the order of `work`.
+  using TakeRow = std::function<void(int y, std::span<const LayerRow> layers)>;
+  void run(std::span<const LayerWork> work, const Sources& sources, int lanes, int threads, const TakeRow& take);
+
   // The largest radii of all kernels up to |index|.
   int reach_x(int index) const noexcept { return reach_x_[static_cast<std::size_t>(index)]; }
   int reach_y(int index) const noexcept { return reach_y_[static_cast<std::size_t>(index)]; }
@@ -61,7 +80,7 @@ class Scatter {
   const KernelTable& kernels_;
   const TileGrid grid_;
   std::vector<int> reach_x_, reach_y_;  // by |index|
-  tbb::enumerable_thread_specific<Band> bands_;
+  tbb::enumerable_thread_specific<std::vector<Band>> bands_;  // one a layer
 };
 
 }  // namespace pullfocus

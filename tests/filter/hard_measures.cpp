@@ -130,7 +130,8 @@ LargestSum largest_sum(double max_coc_px, float radiance) {
   IncrementalFilter filter(window, options, kernels);
   filter.filter(frame, coc_as_depth);
   const auto pixel = static_cast<std::size_t>(middle) * static_cast<std::size_t>(window.width() + 1);
-  const Accumulator* sums = &filter.accumulators()[pixel * static_cast<std::size_t>(filter.lanes())];
+  const std::vector<Accumulator> plane = filter.accumulators();
+  const Accumulator* sums = &plane[pixel * static_cast<std::size_t>(filter.lanes())];
   sum.positive = static_cast<std::int64_t>(sums[0]);
   sum.negative = static_cast<std::int64_t>(sums[1]);
   return sum;

@@ -41,11 +41,12 @@ inline Frame empty_frame(const Window& window, SampleType type, DepthKind kind =
 // The depth is the diameter of the circle of confusion itself.
 inline constexpr CocFunction coc_as_depth{DepthKind::coc, 1, 0};
 
-// Results in float, so that nothing is lost before a test sees it.
+// Results in float, so that nothing is lost before a test sees it; without visibility, whose tests are their own.
 inline FilterOptions options_up_to(double max_coc_px) {
   FilterOptions options;
   options.kernel.max_coc_px = std::max(1., max_coc_px);
   options.output_type = SampleType::float32;
+  options.visibility.kind = Visibility::Kind::none;
   return options;
 }
 

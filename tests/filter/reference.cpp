@@ -39,13 +39,14 @@ void for_each_target(const Kernel& kernel, int x, int y, int width, int height, 
 
 }  // namespace
 
-std::vector<Accumulator> exact_sums(const SourceState& state, const KernelTable& kernels, int lanes) {
+std::vector<Accumulator> exact_sums(const SourceState& state, const KernelTable& kernels, int lanes,
+                                    const Layers* layers, int layer) {
   const Window& w = state.colour.window();
   std::vector<Accumulator> sums(w.pixels() * static_cast<std::size_t>(lanes));
   for (int y = 0; y < w.height(); ++y) {
     for (int x = 0; x < w.width(); ++x) {
       const std::int16_t index = state.index[static_cast<std::size_t>(y) * w.width() + x];
-      if (index == kNeverCommitted) continue;
+      if (index == kNeverCommitted || (layers != nullptr && layers->of(index) != layer)) continue;
       for_each_target(kernels.kernel(index), x, y, w.width(), w.height(), [&](int tx, int ty, std::int64_t weight) {
         Accumulator* sum = &sums[(static_cast<std::size_t>(ty) * w.width() + tx) * lanes];
         for (int lane = 0; lane < lanes; ++lane) {
@@ -58,6 +59,16 @@ std::vector<Accumulator> exact_sums(const SourceState& state, const KernelTable&
     }
   }
   return sums;
+}
+
+bool invariant_holds(const IncrementalFilter& filter, const KernelTable& kernels) {
+  for (int layer = 0; layer < filter.layers().count(); ++layer) {
+    if (filter.accumulators(layer) !=
+        exact_sums(filter.committed(), kernels, filter.lanes(), &filter.layers(), layer)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 NaiveImage naive_scatter(const Frame& frame, const CocFunction& coc, const KernelTable& kernels) {

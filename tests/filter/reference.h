@@ -12,7 +12,12 @@ int reflect(int x, int size);
 
 // What the accumulators must hold: for every committed source and every pixel of its kernel, round(I * w) added where
 // it lands after mirroring at the borders. O(R^2) a source, no runs, no bands, no deltas.
-std::vector<Accumulator> exact_sums(const SourceState& state, const KernelTable& kernels, int lanes);
+// With `layers`, of the sources of one of them only.
+std::vector<Accumulator> exact_sums(const SourceState& state, const KernelTable& kernels, int lanes,
+                                    const Layers* layers = nullptr, int layer = 0);
+
+// Whether the accumulators of every layer are those of the committed state, bit for bit.
+bool invariant_holds(const IncrementalFilter& filter, const KernelTable& kernels);
 
 // The linear filter in plain floating point, from the frame: double sums of colour * weight, divided by the sum of
 // weights. Handles any colours and depths; alpha is a channel like the others.

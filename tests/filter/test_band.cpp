@@ -42,6 +42,17 @@ struct Footprint {
   int x, radius, y;
 };
 
+// Finishes a row, visits its spans, and clears it.
+template <typename Visit>
+void finish_row(Band& band, int y, int lanes, Visit&& visit) {
+  std::vector<ColumnSpan> spans;
+  band.finish_row(y, spans);
+  for (const ColumnSpan& span : spans) {
+    visit(span.x0, span.x1, static_cast<const Accumulator*>(band.row(y) + static_cast<std::ptrdiff_t>(span.x0) * lanes));
+  }
+  band.clear_row(y, spans);
+}
+
 class BandTest : public testing::TestWithParam<BandLayout> {
  protected:
   int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
@@ -67,7 +78,7 @@ class BandTest : public testing::TestWithParam<BandLayout> {
     std::vector<Accumulator> image(static_cast<std::size_t>(layout.width) * layout.height * layout.lanes);
     for (int y = band.y0(); y < band.y1(); ++y) {
       int end = 0;
-      band.finish_row(y, [&](int x0, int x1, const Accumulator* values) {
+      finish_row(band, y, layout.lanes, [&](int x0, int x1, const Accumulator* values) {
         EXPECT_LE(end, x0);
         EXPECT_LT(x0, x1);
         EXPECT_LE(x1, layout.width);
@@ -106,14 +117,14 @@ TEST_P(BandTest, IsCleanAfterItsRowsWereFinished) {
   }
   finish(band);
   for (int y = 0; y < layout.height; ++y) {
-    band.finish_row(y, [](int, int, const Accumulator*) { ADD_FAILURE() << "still dirty"; });
+    finish_row(band, y, layout.lanes, [](int, int, const Accumulator*) { ADD_FAILURE() << "still dirty"; });
   }
   // Another layout lies differently over the same memory, so that remains anywhere would show.
   const BandLayout other{layout.width, layout.height, layout.pad, kOpaqueLanes + kAlphaLanes - layout.lanes};
   band.begin(other, 0, layout.height);
   band.mark(0, layout.height, -layout.pad, layout.width + layout.pad);
   for (int y = 0; y < layout.height; ++y) {
-    band.finish_row(y, [&](int x0, int x1, const Accumulator* values) {
+    finish_row(band, y, other.lanes, [&](int x0, int x1, const Accumulator* values) {
       ASSERT_EQ(x1 - x0, layout.width);
       for (int i = 0; i < layout.width * other.lanes; ++i) ASSERT_EQ(values[i], 0u);
     });

@@ -1,0 +1,104 @@
+#include "resolve/layer_sums.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "scatter/sums.h"
+
+namespace pullfocus {
+
+void LayerSums::reset(int width, int height, int layers, int lanes) {
+  grid_ = {width, height};
+  layers_ = layers;
+  lanes_ = lanes;
+  tiles_.clear();
+  tiles_.resize(static_cast<std::size_t>(layers) * static_cast<std::size_t>(grid_.count()));
+  spare_.clear();
+}
+
+void LayerSums::make_room(int layer, const Window& reached) {
+  const Window part = intersect(reached, {0, 0, grid_.width, grid_.height});
+  if (part.empty()) return;
+  for (int y = part.y0 / kTileHeight * kTileHeight; y < part.y1; y += kTileHeight) {
+    for (int x = part.x0 / kTileWidth * kTileWidth; x < part.x1; x += kTileWidth) {
+      Tile& tile = tiles_[index(layer, x, y)];
+      if (tile) continue;
+      if (spare_.empty()) {
+        tile = std::make_unique<Accumulator[]>(tile_words());
+      } else {
+        tile = std::move(spare_.back());
+        spare_.pop_back();
+      }
+    }
+  }
+}
+
+void LayerSums::add(int layer, int y, const ColumnSpan& span, const Accumulator* values) noexcept {
+  for (int x = span.x0; x < span.x1;) {
+    const int end = std::min((x / kTileWidth + 1) * kTileWidth, span.x1);
+    const std::size_t n = static_cast<std::size_t>(end - x) * static_cast<std::size_t>(lanes_);
+    const Tile& tile = tile_at(layer, x, y);
+    if (tile) add_sums(values, n, tile.get() + offset(x, y));
+    values += n;
+    x = end;
+  }
+}
+
+void LayerSums::clear() noexcept {
+  std::vector<Tile*> used;
+  for (Tile& tile : tiles_) {
+    if (tile) used.push_back(&tile);
+  }
+  tbb::parallel_for(std::size_t{0}, used.size(),
+                    [&](std::size_t t) { std::fill_n(used[t]->get(), tile_words(), Accumulator{0}); });
+  for (Tile* tile : used) spare_.push_back(std::move(*tile));
+}
+
+void LayerSums::widen() {
+  std::vector<Tile> narrow = std::move(tiles_);
+  const std::size_t pixels = static_cast<std::size_t>(kTileWidth * kTileHeight);
+  lanes_ = kAlphaLanes;
+  tiles_.clear();
+  tiles_.resize(narrow.size());
+  spare_.clear();
+  for (std::size_t t = 0; t < narrow.size(); ++t) {
+    if (!narrow[t]) continue;
+    tiles_[t] = std::make_unique<Accumulator[]>(tile_words());
+    for (std::size_t p = 0; p < pixels; ++p) {
+      const Accumulator* in = &narrow[t][p * kOpaqueLanes];
+      Accumulator* out = &tiles_[t][p * kAlphaLanes];
+      std::copy_n(in, kOpaqueLanes, out);
+      out[kAlphaLane] = in[kWeightLane];
+    }
+    narrow[t].reset();
+  }
+}
+
+std::vector<Accumulator> LayerSums::plane(int layer) const {
+  const auto lanes = static_cast<std::size_t>(lanes_);
+  std::vector<Accumulator> plane(static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height) * lanes);
+  for (int y = 0; y < grid_.height; ++y) {
+    for (int x = 0; x < grid_.width; x += kTileWidth) {
+      const Accumulator* in = at(layer, x, y);
+      if (in == nullptr) continue;
+      const int n = std::min(kTileWidth, grid_.width - x);
+      std::copy_n(in, static_cast<std::size_t>(n) * lanes,
+                  &plane[(static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width) + x) * lanes]);
+    }
+  }
+  return plane;
+}
+
+std::size_t LayerSums::bytes() const noexcept {
+  std::size_t held = spare_.size();
+  for (const Tile& tile : tiles_) held += tile != nullptr;
+  return held * tile_words() * sizeof(Accumulator) + tiles_.size() * sizeof(Tile);
+}
+
+std::int64_t LayerSums::tiles(int layer) const noexcept {
+  const auto first = tiles_.begin() + static_cast<std::ptrdiff_t>(layer) * grid_.count();
+  return std::count_if(first, first + grid_.count(), [](const Tile& tile) { return tile != nullptr; });
+}
+
+}  // namespace pullfocus
