@@ -25,7 +25,9 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
       ->group(group)
       ->capture_default_str();
   app.add_option("--visibility", a.visibility,
-                 "what lies before what: auto (layers), layers:BORDERS (CoC diameters in pixels, -2,2), none")->group(group)->capture_default_str();
+                 "what lies before what: auto (layers), layers:BORDERS (CoC diameters in pixels, -2,2), none")
+      ->group(group)
+      ->capture_default_str();
   app.add_option("--budget", a.budget,
                  "share (15%) or number (200000) of changed pixels to update a frame, or time for it (40ms)")
       ->group(group)

@@ -40,6 +40,7 @@ class IncrementalFilter final : public Filter {
   std::vector<Accumulator> accumulators(int layer = 0) const { return sums_.plane(layer); }
   const Layers& layers() const noexcept { return core_.layers; }
   int lanes() const noexcept { return sums_.lanes(); }
+  std::size_t sum_bytes() const noexcept { return sums_.bytes(); }  // of memory
 
  private:
   class Call;

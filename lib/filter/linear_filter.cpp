@@ -29,10 +29,9 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
 
     const Stopwatch scatter;
     const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
-    core_.scatter.run(by_layer(tiles_, core_.layers, state_, nullptr), {&state_}, lanes, core_.threads,
-                      [&](int y, std::span<const LayerRow> rows) {
-                        resolve_rows(rows, lanes, y, state_.colour, result_);
-                      });
+    core_.scatter.run(
+        by_layer(tiles_, core_.layers, state_, nullptr), {&state_}, lanes, core_.threads,
+        [&](int y, std::span<const LayerRow> rows) { resolve_rows(rows, lanes, y, state_.colour, result_); });
     stats_.scatter_ms = scatter.ms();
   });
   stats_.mode = ScatterMode::rebuild;

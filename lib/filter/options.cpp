@@ -100,10 +100,11 @@ Visibility Visibility::parse(std::string_view text) {
       if (*at++ != ',') break;
     }
   }
-  throw Error(ErrorCode::usage,
-              fmt::format("--visibility '{}' is not known: use auto, none, layers, or layers:BORDERS with CoC diameters in "
-                          "pixels, such as layers:-2,2",
-                          text));
+  throw Error(
+      ErrorCode::usage,
+      fmt::format("--visibility '{}' is not known: use auto, none, layers, or layers:BORDERS with CoC diameters in "
+                  "pixels, such as layers:-2,2",
+                  text));
 }
 
 void validate(const FilterOptions& options) {

@@ -77,7 +77,8 @@ void LayerSums::widen() {
 
 std::vector<Accumulator> LayerSums::plane(int layer) const {
   const auto lanes = static_cast<std::size_t>(lanes_);
-  std::vector<Accumulator> plane(static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height) * lanes);
+  std::vector<Accumulator> plane(static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height) *
+                                 lanes);
   for (int y = 0; y < grid_.height; ++y) {
     for (int x = 0; x < grid_.width; x += kTileWidth) {
       const Accumulator* in = at(layer, x, y);

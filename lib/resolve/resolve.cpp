@@ -115,22 +115,22 @@ bool ResolveSpan(const Accumulator* values, int lanes, int n, SampleType type, v
 template <int lanes>
 HWY_INLINE bool Combine(const std::int64_t* const* layers, std::size_t count, std::size_t at, float* HWY_RESTRICT out) {
   constexpr double unit = static_cast<double>(kWeightUnit);
-  const std::int64_t* only = nullptr;
+  const std::int64_t* farthest = nullptr;
   int reached = 0;
   for (std::size_t l = 0; l < count; ++l) {
     const std::int64_t* sums = layers[l] + at;
     if (sums[kWeightLane] == 0) continue;
-    only = sums;
+    farthest = sums;
     ++reached;
   }
   if (reached == 0) return false;
   double colour[4] = {}, scale = 0;
   if (reached == 1) {
-    scale = 1.0 / static_cast<double>(only[kWeightLane]);
-    for (int c = 0; c < 3; ++c) colour[c] = static_cast<double>(only[c]);
-    if constexpr (lanes == kAlphaLanes) colour[3] = static_cast<double>(only[kAlphaLane]);
+    scale = 1.0 / static_cast<double>(farthest[kWeightLane]);
+    for (int c = 0; c < 3; ++c) colour[c] = static_cast<double>(farthest[c]);
+    if constexpr (lanes == kAlphaLanes) colour[3] = static_cast<double>(farthest[kAlphaLane]);
   } else {
-    double free = unit, accepted = 0;
+    double free = unit;
     for (std::size_t l = 0; l < count && free > 0; ++l) {
       const std::int64_t* sums = layers[l] + at;
       if (sums[kWeightLane] == 0) continue;
@@ -139,10 +139,14 @@ HWY_INLINE bool Combine(const std::int64_t* const* layers, std::size_t count, st
       const double share = taken / weight;
       for (int c = 0; c < 3; ++c) colour[c] += static_cast<double>(sums[c]) * share;
       if constexpr (lanes == kAlphaLanes) colour[3] += static_cast<double>(sums[kAlphaLane]) * share;
-      accepted += taken;
       free -= taken;
     }
-    scale = 1.0 / accepted;
+    if (free > 0) {
+      const double share = free / static_cast<double>(farthest[kWeightLane]);
+      for (int c = 0; c < 3; ++c) colour[c] += static_cast<double>(farthest[c]) * share;
+      if constexpr (lanes == kAlphaLanes) colour[3] += static_cast<double>(farthest[kAlphaLane]) * share;
+    }
+    scale = 1.0 / unit;
   }
   for (int c = 0; c < 4; ++c) out[c] = static_cast<float>(colour[c] * scale);
   if constexpr (lanes == kOpaqueLanes) out[3] = 1.f;
@@ -240,8 +244,7 @@ void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x
   }
 }
 
-void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own,
-                  ColourImage& out) noexcept {
+void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out) noexcept {
   const Accumulator* layers[kMostLayers];
   for (std::size_t l = 0; l < rows.size(); ++l) layers[l] = rows[l].values;
   resolve_layers({layers, rows.size()}, lanes, 0, out.window().width(), y, own, out);

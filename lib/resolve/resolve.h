@@ -20,11 +20,13 @@ void resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, c
 // The same from the sums of several layers, nearest first (null: nothing has reached there), in which a weight of
 // kWeightUnit covers a pixel. Each layer gives at most what those before it have left free (DESIGN section 6):
 //
-//   accepted_i = min(weight_i, 1 - sum of accepted before)       colour = sum accepted_i num_i / weight_i / sum accepted_i
+//   accepted_i = min(weight_i, 1 - sum of accepted before)       colour = sum accepted_i num_i / weight_i
 //
-// so a sharp near surface lets nothing through, a blurred one lets the rest through, a surface that a layer's border cuts
-// keeps its whole weight, and what no source reached is filled by those that did. A pixel that one layer alone reaches is
-// num / weight, with the bits that resolve_span() gives. At most kMostLayers layers.
+// and what is still free after the last goes to the farthest layer that reaches the pixel: what is hidden behind a
+// blurred foreground is most likely more of what lies behind it (measured in docs/visibility.md). So a sharp near
+// surface lets nothing through, a blurred one lets the rest through, and a surface that a layer's border cuts keeps its
+// whole weight. A pixel that one layer alone reaches is num / weight, with the bits that resolve_span() gives. At most
+// kMostLayers layers.
 inline constexpr std::size_t kMostLayers = 16;
 void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
                     const ColourImage& own, ColourImage& out) noexcept;

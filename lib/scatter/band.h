@@ -59,8 +59,8 @@ class Band {
   // Says that edges may fall on image columns [x0, x1) (pads included) of rows [ya, yb).
   void mark(int ya, int yb, int x0, int x1) noexcept;
 
-  // Turns row y from changes into sums, folds the pads back in (or drops them), and says in which spans of image columns
-  // it may be non-zero: disjoint and ascending. Elsewhere the row is zero.
+  // Turns row y from changes into sums, folds the pads back in (or drops them), and says in which spans of image
+  // columns it may be non-zero: disjoint and ascending. Elsewhere the row is zero.
   void finish_row(int y, std::vector<ColumnSpan>& spans);
 
   // Makes a finished row zero and clean again.

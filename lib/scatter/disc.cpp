@@ -18,7 +18,7 @@ int levels_for(double diameter) {
   if (diameter < 12) return 16;
   if (diameter < 16) return 8;
   if (diameter < 20) return 3;
-  return diameter < 32 ? 2 : 1;
+  return diameter < 40 ? 2 : 1;
 }
 
 struct Disc {

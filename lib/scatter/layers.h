@@ -16,8 +16,8 @@ class Layers {
  public:
   static constexpr std::size_t kMostBorders = 15;
 
-  // Signed CoC diameters in pixels, ascending; a diameter at a border belongs to the side nearer to focus. None: a single
-  // layer. Throws Error(usage) naming --visibility.
+  // Signed CoC diameters in pixels, ascending; a diameter at a border belongs to the side nearer to focus. None: a
+  // single layer. Throws Error(usage) naming --visibility.
   Layers(const CocTable& coc, std::span<const double> borders);
 
   int count() const noexcept { return static_cast<int>(ranges_.size()); }
@@ -44,8 +44,9 @@ struct LayerWork {
 // Throws Error(usage) naming --visibility.
 void validate_borders(std::span<const double> borders);
 
-// Masked pixels by layer, nearest first; a pixel that changes its layer (from the committed index to the one in `pending`,
-// row by row; null: the committed one only) is in both. Layers without any are left out. Runs in the calling task arena.
+// Masked pixels by layer, nearest first; a pixel that changes its layer (from the committed index to the one in
+// `pending`, row by row; null: the committed one only) is in both. Layers without any are left out. Runs in the calling
+// task arena.
 std::vector<LayerWork> by_layer(const std::vector<TileWork>& tiles, const Layers& layers, const SourceState& state,
                                 const std::int16_t* pending);
 

@@ -60,8 +60,8 @@ class Scatter {
   // on it.
   void run(std::span<const TileWork> tiles, const Sources& sources, int lanes, int threads, const Take& take);
 
-  // The same for several layers, whose ranges replace that of `sources`. A row is handed over once, with the layers that
-  // may be non-zero in it, in the order of `work`.
+  // The same for several layers, whose ranges replace that of `sources`. A row is handed over once, with the layers
+  // that may be non-zero in it, in the order of `work`.
   using TakeRow = std::function<void(int y, std::span<const LayerRow> layers)>;
   void run(std::span<const LayerWork> work, const Sources& sources, int lanes, int threads, const TakeRow& take);
 
@@ -79,7 +79,7 @@ class Scatter {
 
   const KernelTable& kernels_;
   const TileGrid grid_;
-  std::vector<int> reach_x_, reach_y_;  // by |index|
+  std::vector<int> reach_x_, reach_y_;                        // by |index|
   tbb::enumerable_thread_specific<std::vector<Band>> bands_;  // one a layer
 };
 

@@ -48,7 +48,8 @@ void finish_row(Band& band, int y, int lanes, Visit&& visit) {
   std::vector<ColumnSpan> spans;
   band.finish_row(y, spans);
   for (const ColumnSpan& span : spans) {
-    visit(span.x0, span.x1, static_cast<const Accumulator*>(band.row(y) + static_cast<std::ptrdiff_t>(span.x0) * lanes));
+    visit(span.x0, span.x1,
+          static_cast<const Accumulator*>(band.row(y) + static_cast<std::ptrdiff_t>(span.x0) * lanes));
   }
   band.clear_row(y, spans);
 }
