@@ -156,7 +156,7 @@ Selection select_channels(const ChannelNames& names, const ChannelOptions& optio
   selection.view = pick_view(names, options);
   const NameMap channels = channels_of_view(names, selection.view);
   selection.layer = pick_layer(names, colour_layers(channels), options);
-  selection.depth = pick_depth(names, channels, selection.layer, options);
+  if (!options.colour_only) selection.depth = pick_depth(names, channels, selection.layer, options);
 
   Strings colour_names;
   for (const char* base : {"R", "G", "B", "A"}) {
@@ -169,6 +169,7 @@ Selection select_channels(const ChannelNames& names, const ChannelOptions& optio
     selection.colour.push_back({channel->second, channel->first});
     colour_names.push_back(channel->first);
   }
+  if (options.colour_only) return selection;
   for (const auto& [name, file_name] : channels) {
     if (std::ranges::find(colour_names, name) == colour_names.end()) selection.extra.push_back({file_name, name});
   }

@@ -15,6 +15,8 @@ struct ChannelOptions {
   std::optional<std::string> view{};
   // Full channel name, with or without the view's.
   std::optional<std::string> depth_channel{};
+  // No depth is looked for and nothing else is carried along: for pictures that are only looked at.
+  bool colour_only = false;
 };
 
 // What a file holds. `file` is used in messages.
@@ -34,7 +36,7 @@ struct Selection {
   std::string layer;                 // colour layer, without the view's name; empty: root
   std::string view;                  // empty: not a multi-view file
   std::vector<NamedChannel> colour;  // R, G, B and, if has_alpha(), A
-  std::string depth;                 // file's channel name
+  std::string depth;                 // file's channel name; empty with colour_only
   std::vector<NamedChannel> extra;   // all others of the view and of no view, depth included
 
   bool has_alpha() const noexcept { return colour.size() == 4; }

@@ -126,7 +126,8 @@ FrameReader::~FrameReader() = default;
 std::size_t FrameReader::read(const Selection& selection, const Window& state_window, Frame& frame,
                               ExtraChannels* extra) {
   if (!info_.complete) fail(info_.path, "is incomplete: it is still being written, or was cut short");
-  require_channel(info_, selection.depth);
+  const bool with_depth = !selection.depth.empty();
+  if (with_depth) require_channel(info_, selection.depth);
   frame.colour.reset(state_window, colour_type(info_, selection));
   frame.depth.reset(state_window, std::numeric_limits<float>::infinity());
   frame.has_alpha = selection.has_alpha();
@@ -140,7 +141,7 @@ std::size_t FrameReader::read(const Selection& selection, const Window& state_wi
   add_colour_targets(selection, common, frame.colour, targets);
   const auto kept_depth = std::ranges::find(selection.extra, selection.depth, &NamedChannel::file_name);
   const bool converts = extra && kept_depth != selection.extra.end();
-  if (!converts) add_depth_target(selection, common, frame.depth, targets);
+  if (with_depth && !converts) add_depth_target(selection, common, frame.depth, targets);
   try {
     read_pixels(*file_, targets, info_.data_window, common);
   } catch (const std::exception& error) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 #include <mutex>
 #include <system_error>
@@ -82,14 +81,6 @@ void write_picture(const std::string& path, const Picture& picture) {
   if (error.empty()) return;
   fs::remove(temporary, problem);
   throw Error(ErrorCode::unwritable, fmt::format("{}: cannot be written: {}", path, error));
-}
-
-float srgb_encoded(float linear) noexcept {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
-float srgb_decoded(float encoded) noexcept {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 }  // namespace pullfocus::imageio

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "image/srgb.h"
+
 namespace pullfocus::imageio {
 
 struct Picture {
@@ -29,8 +31,7 @@ Picture read_picture(const std::string& path);
 // everywhere) is written as RGB. The file appears whole or not at all. Throws Error(unwritable) naming the file.
 void write_picture(const std::string& path, const Picture& picture);
 
-// Linear values to the sRGB encoding and back (IEC 61966-2-1), for 0..1.
-float srgb_encoded(float linear) noexcept;
-float srgb_decoded(float encoded) noexcept;
+using pullfocus::srgb_decoded;
+using pullfocus::srgb_encoded;
 
 }  // namespace pullfocus::imageio
