@@ -18,6 +18,7 @@ inline constexpr int kDone = 0, kFrameFailed = 1, kWrongUsage = 2;
 // It may throw pullfocus::Error.
 using Run = std::function<int()>;
 Run add_filter_command(CLI::App& app);
+Run add_compare_command(CLI::App& app);
 Run add_inspect_command(CLI::App& app);
 Run add_render_command(CLI::App& app);
 

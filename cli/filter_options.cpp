@@ -80,6 +80,12 @@ Method parse_method(const std::string& text) {
   throw Error(ErrorCode::usage, "--method '" + text + "' is not known: use incremental or linear");
 }
 
+std::unique_ptr<Filter> make_filter(Method method, const Window& state_window, const FilterOptions& options,
+                                    std::shared_ptr<const KernelTable> kernels) {
+  return method == Method::linear ? make_linear_filter(state_window, options, std::move(kernels))
+                                  : make_incremental_filter(state_window, options, std::move(kernels));
+}
+
 namespace {
 
 // Pixels, or "F/N": the focal length as a length on the picture, divided by N (Fearing 1996, section 4.3: F/1000).

@@ -1,9 +1,11 @@
 // The filter's options as the command line gives them; shared by commands that filter or plan to.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "filter/filter.h"
 #include "filter/options.h"
 #include "kernel_arguments.h"
 
@@ -28,6 +30,10 @@ void add_filter_options(CLI::App& app, FilterArguments& arguments);
 
 enum class Method { incremental, linear };
 Method parse_method(const std::string& text);  // throws Error(usage)
+
+// The filter of a method.
+std::unique_ptr<Filter> make_filter(Method method, const Window& state_window, const FilterOptions& options,
+                                    std::shared_ptr<const KernelTable> kernels = nullptr);
 
 // What the options depend on beside themselves.
 struct ShotFacts {

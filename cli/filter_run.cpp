@@ -64,8 +64,7 @@ FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera,
     break;
   }
   if (kind_ != OutputKind::result) return;
-  filter_ = parse_method(method_) == Method::linear ? make_linear_filter(shot_.state_window(), options_)
-                                                    : make_incremental_filter(shot_.state_window(), options_);
+  filter_ = make_filter(parse_method(method_), shot_.state_window(), options_);
 }
 
 int FilterRun::run() {

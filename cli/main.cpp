@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   add("filter", "filter a sequence: RGB + depth EXR in, depth of field out", cli::add_filter_command);
   add("inspect", "say what a sequence holds, how it is understood and what filtering it will cost",
       cli::add_inspect_command);
+  add("compare", "measure speed against error of methods and budgets over sequences", cli::add_compare_command);
   add("render", "make a synthetic RGB + depth sequence", cli::add_render_command);
 
   try {
