@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "compare/html_style.h"
 #include "compare/plot.h"
 #include "compare/report.h"
 #include "metrics/flip.h"
@@ -13,80 +14,50 @@ namespace pullfocus::cli {
 
 namespace {
 
-constexpr char kStyle[] = R"(
-:root { color-scheme: light dark; --ink: #1c1e21; --soft: #5c636b; --line: #d9dde2; --page: #ffffff; --band: #f5f6f8;
-  --c0: #0067a9; --c1: #cc5200; --c2: #00835f; --c3: #b3488c; --c4: #a97900; --c5: #2e9bd6; --c6: #6a4fb3; --c7: #6b6b6b; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e4e6e9; --soft: #9aa2ab; --line: #363b42; --page: #16181b;
-  --band: #1e2125; --c0: #5ab0ea; --c1: #ff8f4d; --c2: #3cc79c; --c3: #e58cc3; --c4: #e0b040; --c5: #8fd0f5;
-  --c6: #ab95ee; --c7: #b0b0b0; } }
-body { margin: 2rem auto; max-width: 70rem; padding: 0 1.2rem; background: var(--page); color: var(--ink);
-  font: 15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
-h1 { font-size: 1.5rem; margin: 0 0 .2rem; } h2 { font-size: 1.2rem; margin: 2.4rem 0 .2rem; overflow-wrap: anywhere; }
-h3 { font-size: 1rem; margin: 1.6rem 0 .4rem; } p { margin: .2rem 0 .8rem; } .soft { color: var(--soft); font-size: .9rem; }
-.wide { overflow-x: auto; } table { border-collapse: collapse; font-size: .9rem; white-space: nowrap; }
-th, td { padding: .22rem .7rem; text-align: right; font-variant-numeric: tabular-nums; border-bottom: 1px solid var(--line); }
-th { font-weight: 600; color: var(--soft); vertical-align: bottom; } th:first-child, td:first-child { text-align: left; padding-left: .3rem; }
-tr.group th { border-bottom: 0; padding-top: .5rem; text-align: center; } tbody tr:hover { background: var(--band); }
-td.first, th.first { border-left: 1px solid var(--line); }
-.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(26rem, 1fr)); gap: 1rem; }
-.plot { width: 100%; height: auto; } .key { width: .9em; height: .9em; vertical-align: -.08em; margin-right: .5em; }
-svg text { fill: var(--soft); font: 12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
-svg .title { fill: var(--ink); font-size: 14px; font-weight: 600; }
-svg .grid { stroke: var(--line); } svg .axis { fill: none; stroke: var(--soft); }
-svg .front { fill: none; stroke: var(--soft); stroke-width: 1.2; stroke-dasharray: 5 4; } svg .l { fill: none; stroke-width: 1.6; }
-.m { stroke: var(--page); stroke-width: .8; }
-.m.c0 { fill: var(--c0) } .m.c1 { fill: var(--c1) } .m.c2 { fill: var(--c2) } .m.c3 { fill: var(--c3) }
-.m.c4 { fill: var(--c4) } .m.c5 { fill: var(--c5) } .m.c6 { fill: var(--c6) } .m.c7 { fill: var(--c7) }
-.l.c0 { stroke: var(--c0) } .l.c1 { stroke: var(--c1) } .l.c2 { stroke: var(--c2) } .l.c3 { stroke: var(--c3) }
-.l.c4 { stroke: var(--c4) } .l.c5 { stroke: var(--c5) } .l.c6 { stroke: var(--c6) } .l.c7 { stroke: var(--c7) }
-.pictures { display: flex; flex-wrap: wrap; gap: .8rem; margin: .3rem 0 1rem; }
-figure { margin: 0; max-width: 100%; } figure img { display: block; max-width: 100%; height: auto; background: #000; }
-figcaption { color: var(--soft); font-size: .82rem; } .none { color: var(--soft); align-self: center; font-size: .85rem; }
-.scale { display: inline-block; width: 9rem; height: .7rem; vertical-align: -.05rem; margin: 0 .4rem;
-  background: linear-gradient(to right, #000005, #261259, #661c80, #b3337a, #ed5e5e, #fca873, #fcfcbf); }
-)";
-
 std::string cell(const std::string& text, bool first = false) {
   return fmt::format("<td{}>{}</td>", first ? " class=\"first\"" : "", text);
 }
 
-std::string table_head(const ShotResult& shot) {
-  std::string groups = "<tr class=\"group\"><th></th>", names = "<tr><th>filter</th>";
-  if (!shot.given) {
-    groups += "<th class=\"first\" colspan=\"4\">a frame</th>";
-    names += "<th class=\"first\">first ms</th><th>median ms</th><th>speed-up</th><th>updated&#160;%</th>";
+constexpr const char* kFirst = " class=\"first\"";
+
+std::string error_names() {
+  std::string text;
+  for (const Measure& m : measures()) {
+    text += fmt::format("<th{}>{}</th>", &m == &measures().front() ? kFirst : "", m.title);
   }
-  for (const Against against : kAgainst) {
-    if (!shot.measured(against)) continue;
-    const std::string title = shot.given                   ? "error against the reference"
-                              : against == Against::linear ? "error against linear"
-                              : against == Against::truth  ? "error against the truth"
-                                                           : "error of quantisation";
-    groups += fmt::format("<th class=\"first\" colspan=\"{}\">{}</th>", measures().size(), title);
-    for (const Measure& m : measures()) {
-      names += fmt::format("<th{}>{}</th>", &m == &measures().front() ? " class=\"first\"" : "", m.title);
-    }
-  }
-  return groups + "</tr>\n" + names + "</tr>\n";
+  return text;
 }
 
-std::string table_row(const ShotResult& shot, std::size_t i) {
-  const Row& row = shot.rows[i];
-  std::string text = fmt::format("<tr><td>{}{}</td>", marker_svg(i), escaped(row.label));
-  if (!shot.given) {
-    const auto ms = median_ms(row), speed_up = median_speed_up(shot, row), share = updated_share(shot, row);
-    text += cell(shown_ms(row.first_ms()), true) + cell(ms ? shown_ms(*ms) : "") +
-            cell(speed_up ? fmt::format("{:.2f}", *speed_up) : "") +
-            cell(share ? fmt::format("{:.2f}", 100 * *share) : "");
+std::string error_cells(const ShotResult& shot, const Row& row, Against against) {
+  const auto errors = row.errors(against);
+  std::string text;
+  for (const Measure& m : measures()) text += cell(shown(m, m.of_frames(errors, shot.peak)), &m == &measures().front());
+  return text;
+}
+
+std::string time_cells(const ShotResult& shot, const Row& row) {
+  const auto ms = median_ms(row), speed_up = median_speed_up(shot, row), share = updated_share(shot, row);
+  return cell(shown_ms(row.first_ms()), true) + cell(ms ? shown_ms(*ms) : "") +
+         cell(speed_up ? fmt::format("{:.2f}", *speed_up) : "") +
+         cell(share ? fmt::format("{:.2f}", 100 * *share) : "");
+}
+
+// One table for each error; times stand beside the first.
+std::string error_table(const ShotResult& shot, Against against) {
+  const bool timed = !shot.given && against == Against::linear;
+  std::string text = "<div class=\"wide\"><table>\n<thead>\n<tr class=\"group\"><th></th>";
+  if (timed) text += "<th class=\"first\" colspan=\"4\">a frame</th>";
+  text += fmt::format("<th class=\"first\" colspan=\"{}\">error {}</th></tr>\n<tr><th>filter</th>", measures().size(),
+                      heading(shot, against));
+  if (timed) text += "<th class=\"first\">first ms</th><th>median ms</th><th>speed-up</th><th>updated&#160;%</th>";
+  text += error_names() + "</tr>\n</thead>\n<tbody>\n";
+  for (std::size_t i = 0; i < shot.rows.size(); ++i) {
+    const Row& row = shot.rows[i];
+    if (row.errors(against).empty()) continue;
+    text += fmt::format("<tr><td>{}{}</td>{}{}</tr>\n", marker_svg(i), escaped(row.label),
+                        timed ? time_cells(shot, row) : "", error_cells(shot, row, against));
   }
-  for (const Against against : kAgainst) {
-    if (!shot.measured(against)) continue;
-    const auto errors = row.errors(against);
-    for (const Measure& m : measures()) {
-      text += cell(errors.empty() ? "" : shown(m, m.of_frames(errors, shot.peak)), &m == &measures().front());
-    }
-  }
-  return text + "</tr>\n";
+  return text + "</tbody>\n</table></div>\n";
 }
 
 const Measure& measure(const std::string& name) { return *std::ranges::find(measures(), name, &Measure::name); }
@@ -125,7 +96,7 @@ std::string time_against(const ShotResult& shot, Against against, const Measure&
 
 std::string over_frames(const ShotResult& shot, const std::string& title, const Axis& y,
                         const std::function<std::optional<double>(const Row&, const FrameResult&)>& value) {
-  Plot plot{title, {"frame"}, y, {}, {}};
+  Plot plot{title, {"frame", false, true}, y, {}, {}};
   for (std::size_t i = 0; i < shot.rows.size(); ++i) {
     Series series{shot.rows[i].label, i, {}, true};
     for (const FrameResult& frame : shot.rows[i].frames) {
@@ -136,58 +107,54 @@ std::string over_frames(const ShotResult& shot, const std::string& title, const 
   return plot.series.empty() ? "" : svg(plot);
 }
 
-std::string error_over_frames(const ShotResult& shot, Against against, const std::string& title) {
-  const Measure& m = measure("rmse");
-  return over_frames(shot, title, {m.title, true},
+std::string error_over_frames(const ShotResult& shot, Against against, const Measure& m, const std::string& title) {
+  return over_frames(shot, title, {m.title, !m.higher_is_better},
                      [&](const Row& row, const FrameResult& frame) -> std::optional<double> {
-                       if (against == Against::linear && !shot.given && &row == &shot.rows[row.linear])
-                         return std::nullopt;
                        const auto& errors = frame.errors[static_cast<std::size_t>(against)];
-                       if (!errors) return std::nullopt;
+                       const bool self = against == Against::linear && !shot.given && &row == &shot.rows[row.linear];
+                       if (!errors || self) return std::nullopt;
                        return m.of_frame(*errors, shot.peak);
                      });
 }
 
+std::string updated_over_frames(const ShotResult& shot) {
+  return over_frames(shot, "Updated pixels over frames", {"% of the picture"},
+                     [&](const Row& row, const FrameResult& frame) -> std::optional<double> {
+                       const bool first = frame.frame == row.frames.front().frame;
+                       if (&row == &shot.rows[row.linear] || first) return std::nullopt;
+                       const auto pixels = static_cast<double>(shot.window.pixels());
+                       return 100 * static_cast<double>(frame.stats.updated) / pixels;
+                     });
+}
+
+// A single frame has no course.
 std::string plots(const ShotResult& shot) {
-  const bool several = shot.rows.front().frames.size() > 1;
-  std::string text;
-  if (!shot.given && several) {
-    text += time_against(shot, Against::linear, measure("rmse"), "Time against error (linear)");
-    text += time_against(shot, Against::truth, measure("psnr"), "Time against PSNR to the truth");
+  if (shot.rows.front().frames.size() < 2) return "";
+  std::string text = "<div class=\"plots\">\n";
+  if (shot.given) {
+    return text + error_over_frames(shot, Against::linear, measure("rmse"), "Error over frames") + "</div>\n";
   }
-  if (several) {
-    text +=
-        error_over_frames(shot, Against::linear, shot.given ? "Error over frames" : "Error against linear over frames");
-    if (shot.measured(Against::truth))
-      text += error_over_frames(shot, Against::truth, "Error against the truth over frames");
-  }
-  if (!shot.given && several) {
-    text +=
-        over_frames(shot, "Updated pixels over frames", {"% of the picture", false},
-                    [&](const Row& row, const FrameResult& frame) -> std::optional<double> {
-                      if (&row == &shot.rows[row.linear] || frame.frame == row.frames.front().frame)
-                        return std::nullopt;
-                      return 100 * static_cast<double>(frame.stats.updated) / static_cast<double>(shot.window.pixels());
-                    });
-  }
-  if (text.empty()) return "";
-  return "<div class=\"plots\">\n" + text + "</div>\n" +
-         (shot.given ? ""
-                     : "<p class=\"soft\">Markers as in the table. Dashed: the Pareto front, filters that no other one "
-                       "beats in "
-                       "both. A 0 on a logarithmic axis is exactly no error.</p>\n");
+  text += time_against(shot, Against::linear, measure("rmse"), "Time against error (linear)");
+  text += time_against(shot, Against::truth, measure("psnr"), "Time against PSNR to the truth");
+  text += error_over_frames(shot, Against::linear, measure("rmse"), "Error against linear over frames");
+  text += error_over_frames(shot, Against::truth, measure("psnr"), "PSNR to the truth over frames");
+  text += updated_over_frames(shot) + "</div>\n";
+  return text +
+         "<p class=\"soft\">Markers as in the table. Dashed: the Pareto front, filters that no other one beats in "
+         "both. A 0 on a logarithmic axis is exactly no error.</p>\n";
 }
 
 std::string figures(const std::vector<Picture64>& pictures, const std::string& of) {
   std::string text = "<div class=\"pictures\">\n";
   for (const Picture64& p : pictures) {
+    text += "<figure>";
     if (p.base64.empty()) {
-      text += fmt::format("<p class=\"none\">{}: exactly 0</p>\n", escaped(p.caption));
+      text += fmt::format("<div class=\"none\" style=\"width:{}px;height:{}px\">exactly 0</div>", p.width, p.height);
     } else {
-      text += fmt::format(
-          "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"/><figcaption>{}</figcaption></figure>\n",
-          escaped(of + ": " + p.caption), p.base64, escaped(p.caption));
+      text += fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>", p.width,
+                          p.height, escaped(of + ": " + p.caption), p.base64);
     }
+    text += fmt::format("<figcaption>{}</figcaption></figure>\n", escaped(p.caption));
   }
   return text + "</div>\n";
 }
@@ -211,9 +178,10 @@ std::string section(const ShotResult& shot) {
                                  shot.camera.empty() ? "" : "; " + escaped(shot.camera),
                                  shot.truth.empty() ? "" : "; truth " + escaped(shot.truth),
                                  shot.reference.empty() ? "" : "; reference " + escaped(shot.reference));
-  text += "<div class=\"wide\"><table>\n<thead>\n" + table_head(shot) + "</thead>\n<tbody>\n";
-  for (std::size_t i = 0; i < shot.rows.size(); ++i) text += table_row(shot, i);
-  return text + "</tbody>\n</table></div>\n" + plots(shot) + picture_section(shot);
+  for (const Against against : kAgainst) {
+    if (shot.measured(against)) text += error_table(shot, against);
+  }
+  return text + plots(shot) + picture_section(shot);
 }
 
 }  // namespace

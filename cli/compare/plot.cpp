@@ -17,7 +17,7 @@ constexpr std::size_t kColours = 8;
 class Scale {
  public:
   Scale(const Axis& axis, const std::vector<double>& values, double from, double to)
-      : logarithmic_(axis.logarithmic), from_(from), to_(to) {
+      : logarithmic_(axis.logarithmic), least_(axis.integers ? 1 : 0), from_(from), to_(to) {
     low_ = std::numeric_limits<double>::infinity();
     high_ = -low_;
     for (const double value : values) {
@@ -46,14 +46,14 @@ class Scale {
     return start_ + part * (to_ - start_);
   }
   std::vector<double> tick_values() const {
-    std::vector<double> values = ticks(low_, high_, logarithmic_);
+    std::vector<double> values = ticks(low_, high_, logarithmic_, least_);
     if (zeros_) values.insert(values.begin(), 0);
     return values;
   }
 
  private:
   bool logarithmic_, zeros_ = false;
-  double from_, to_, start_ = 0, low_, high_;
+  double least_, from_, to_, start_ = 0, low_, high_;
 };
 
 std::string tick_text(double value) {
@@ -121,7 +121,7 @@ std::string axes(const Plot& plot, const Scale& x, const Scale& y) {
 
 }  // namespace
 
-std::vector<double> ticks(double low, double high, bool logarithmic) {
+std::vector<double> ticks(double low, double high, bool logarithmic, double least) {
   std::vector<double> values;
   if (logarithmic) {
     const double decades = std::log10(high / low);
@@ -135,7 +135,7 @@ std::vector<double> ticks(double low, double high, bool logarithmic) {
     }
     return values;
   }
-  const double rough = (high - low) / 5, power = std::pow(10, std::floor(std::log10(rough)));
+  const double rough = std::max(least, (high - low) / 5), power = std::pow(10, std::floor(std::log10(rough)));
   double step = 10 * power;
   for (const double digit : {5., 2., 1.}) {
     if (digit * power >= rough) step = digit * power;

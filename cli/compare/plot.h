@@ -10,6 +10,7 @@ namespace pullfocus::cli {
 struct Axis {
   std::string title;
   bool logarithmic = false;  // zeros then get a place of their own at the low end
+  bool integers = false;     // no ticks between whole numbers
 };
 
 struct Series {
@@ -32,8 +33,8 @@ std::string svg(const Plot& plot);
 std::string marker_svg(std::size_t style);
 
 // Positions of labelled ticks from `low` to `high`, about five: 1, 2, 5 times powers of ten; on logarithmic axes powers
-// of ten, with 2 and 5 between them if there are few.
-std::vector<double> ticks(double low, double high, bool logarithmic);
+// of ten, with 2 and 5 between them if there are few. Not closer than `least`.
+std::vector<double> ticks(double low, double high, bool logarithmic, double least = 0);
 
 // &, <, >, quotes and control characters made safe for XML text and attributes.
 std::string escaped(const std::string& text);

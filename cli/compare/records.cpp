@@ -114,12 +114,14 @@ std::string csv_report(const std::vector<ShotResult>& shots) {
       for (const std::optional<double>& value :
            {timed ? std::optional(row.first_ms()) : std::nullopt, timed ? median_ms(row) : std::nullopt,
             timed ? median_speed_up(shot, row) : std::nullopt, timed ? updated_share(shot, row) : std::nullopt}) {
-        text += "," + csv_number(value);
+        text += ',';
+        text += csv_number(value);
       }
       for (const Against against : kAgainst) {
         const auto errors = row.errors(against);
         for (const Measure& m : measures()) {
-          text += "," + (errors.empty() ? "" : csv_number(m.of_frames(errors, shot.peak)));
+          text += ',';
+          if (!errors.empty()) text += csv_number(m.of_frames(errors, shot.peak));
         }
       }
       text += "\r\n";

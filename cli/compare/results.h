@@ -38,6 +38,7 @@ const std::vector<Measure>& measures();
 
 struct Picture64 {
   std::string caption, base64;  // PNG; empty base64: there is nothing to see
+  int width = 0, height = 0;
 };
 
 // One filter, or with --given the sequence itself.

@@ -63,7 +63,7 @@ std::string times_table(const ShotResult& shot) {
 }
 
 std::string errors_table(const ShotResult& shot, Against against) {
-  std::vector<Line> lines{{heading(shot, against)}};
+  std::vector<Line> lines{{""}};
   for (const Measure& m : measures()) lines.front().push_back(m.title);
   for (const Row& row : shot.rows) {
     const auto errors = row.errors(against);
@@ -71,7 +71,7 @@ std::string errors_table(const ShotResult& shot, Against against) {
     lines.push_back({row.label});
     for (const Measure& m : measures()) lines.back().push_back(shown(m, m.of_frames(errors, shot.peak)));
   }
-  return aligned(lines);
+  return fmt::format("error {}\n{}", heading(shot, against), aligned(lines));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ using ColourOf = std::function<std::array<float, 3>(int x, int y)>;  // displaya
 
 // Every pixel of the small picture is the mean of a square of pixels; what is left over at the right and below is cut.
 imageio::Picture shrunk(const Window& w, const ColourOf& colour) {
-  const int side = (w.width() + kThumbnailWidth - 1) / kThumbnailWidth;
+  const int side = std::max((w.width() + kThumbnailWidth - 1) / kThumbnailWidth, 1);
   imageio::Picture small{std::max(1, w.width() / side), std::max(1, w.height() / side), {}};
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
@@ -115,7 +115,7 @@ Picture64 thumbnail(const std::string& caption, const ColourImage& picture, cons
     for (int c = 0; c < 3; ++c) rgb[static_cast<std::size_t>(c)] = displayable(picture.get(x, y, c));
     return rgb;
   });
-  return {caption, base64(png_of(small))};
+  return {caption, base64(png_of(small)), small.width, small.height};
 }
 
 Picture64 error_thumbnail(const std::string& caption, const ColourImage& picture, const ColourImage& reference,
@@ -125,8 +125,8 @@ Picture64 error_thumbnail(const std::string& caption, const ColourImage& picture
   for (int y = window.y0; y < window.y1; ++y) {
     any |= std::any_of(map.row(y), map.row(y) + window.width(), [](float value) { return value != 0; });
   }
-  if (!any) return {caption, ""};
-  return {caption, base64(png_of(shrunk(window, [&](int x, int y) { return ramp(map.at(x, y)); })))};
+  const imageio::Picture small = shrunk(window, [&](int x, int y) { return ramp(map.at(x, y)); });
+  return {caption, any ? base64(png_of(small)) : "", small.width, small.height};
 }
 
 }  // namespace pullfocus::cli
