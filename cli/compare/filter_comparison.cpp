@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "command.h"
+#include "compare/continuous.h"
 #include "compare/pictures.h"
 #include "compare/run.h"
 #include "compare/thumbnails.h"
@@ -14,23 +15,11 @@ namespace {
 
 constexpr std::size_t index_of(Against against) { return static_cast<std::size_t>(against); }
 
-// Steps so fine that only the table's own look-up is left: 1/8 pixel.
-KernelOptions nearly_continuous(KernelOptions options) {
-  options.coc_step = 0;
-  options.smallest_step = 1. / 8;
-  return options;
-}
-
 struct Runner {
   std::unique_ptr<Filter> filter;
   std::size_t row = 0;         // in the result
   std::size_t linear = 0;      // runner of the group's linear filter
   std::size_t continuous = 0;  // in Work::continuous, for linear filters
-};
-
-struct Continuous {
-  std::string kernel, visibility;
-  std::unique_ptr<Filter> filter;
 };
 
 Row row_of(const FilterArguments& a) {
@@ -59,7 +48,7 @@ struct FilterComparison::Work {
   std::vector<exr::SequenceFrame> frames;
   bool with_pictures;
   std::vector<Runner> runners;
-  std::vector<Continuous> continuous;
+  std::vector<ContinuousFilter> continuous;
   ShotResult result;
   ShotFrame current;
   Frame true_frame;
@@ -104,12 +93,11 @@ struct FilterComparison::Work {
   }
 
   // One for each kernel and visibility.
-  std::size_t add_continuous(const FilterArguments& a, FilterOptions options) {
+  std::size_t add_continuous(const FilterArguments& a, const FilterOptions& options) {
     for (std::size_t i = 0; i < continuous.size(); ++i) {
-      if (continuous[i].kernel == a.kernel.kernel && continuous[i].visibility == a.visibility) return i;
+      if (continuous[i].is(a.kernel.kernel, a.visibility)) return i;
     }
-    options.kernel = nearly_continuous(options.kernel);
-    continuous.push_back({a.kernel.kernel, a.visibility, make_linear_filter(shot.state_window(), options)});
+    continuous.emplace_back(a.kernel.kernel, a.visibility, shot.state_window(), options);
     return continuous.size() - 1;
   }
 
@@ -132,7 +120,7 @@ struct FilterComparison::Work {
       const std::size_t turn = (i + number) % runners.size();
       stats[turn] = runners[turn].filter->filter(current.frame, coc);
     }
-    for (Continuous& c : continuous) c.filter->filter(current.frame, coc);
+    for (ContinuousFilter& c : continuous) c.filter(current.frame, coc);
 
     const exr::SequenceFrame* true_picture = truth_of(from.frame);
     if (true_picture != nullptr) truth->read(*true_picture, result.window, true_frame);
@@ -154,7 +142,7 @@ struct FilterComparison::Work {
                   : picture_errors(picture, runners[runner.linear].filter->result(), all, result.peak);
     if (is_linear && !continuous.empty()) {
       errors[index_of(Against::quantisation)] =
-          picture_errors(picture, continuous[runner.continuous].filter->result(), all, result.peak);
+          picture_errors(picture, continuous[runner.continuous].result(), all, result.peak);
     }
     if (with_truth) {
       errors[index_of(Against::truth)] = picture_errors(picture, true_frame.colour, result.window, result.peak);
@@ -174,7 +162,7 @@ struct FilterComparison::Work {
             error_thumbnail("FLIP against linear", picture, runners[runner.linear].filter->result(), w));
       } else if (!continuous.empty()) {
         row.pictures.push_back(
-            error_thumbnail("FLIP of quantisation", picture, continuous[runner.continuous].filter->result(), w));
+            error_thumbnail("FLIP of quantisation", picture, continuous[runner.continuous].result(), w));
       }
       if (with_truth) row.pictures.push_back(error_thumbnail("FLIP against truth", picture, true_frame.colour, w));
     }

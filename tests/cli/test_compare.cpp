@@ -314,10 +314,10 @@ TEST_F(Compare, MistakesAreOneLineThatNamesTheOptionAndExitWithTwo) {
 TEST_F(Compare, ACyclesShotGoesThroughAsItIs) {
   if (shared_data("cycles").empty()) GTEST_SKIP() << "../shared/data/cycles is not there";
   const std::string mover = shared_data("cycles/mover"), still = shared_data("cycles/static_pull");
-  const Outcome outcome = run(
-      fmt::format("compare '{0}/pinhole_####.exr' --truth '{0}/gt_####.exr' --focal-length 50 --fstop 2 --focus 0.8 "
-                  "--quick --json '{1}' --fail-above largest=10 --fail-below truth.psnr=22 --budgets 15%,100%",
-                  mover, folder / "m.json"));
+  const Outcome outcome = run(fmt::format(
+      "compare '{0}/pinhole_####.exr' --truth '{0}/gt_####.exr' --focal-length 50 --fstop 2 --focus 0.8 "
+      "--visibility none --quick --json '{1}' --fail-above largest=10 --fail-below truth.psnr=22 --budgets 15%,100%",
+      mover, folder / "m.json"));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const json filters = json::parse(exr::test::file_bytes(folder / "m.json"))["shots"][0]["filters"];
   EXPECT_EQ(filters[2]["errors"]["linear"]["largest"], 0);
@@ -327,7 +327,7 @@ TEST_F(Compare, ACyclesShotGoesThroughAsItIs) {
   for (const char* focus : {"0.32", "0.80", "2.70"}) {
     const Outcome pull = run(fmt::format(
         "compare '{0}/pinhole_0001.exr' --truth '{0}/gt_f{1}_0001.exr' --focal-length 50 --fstop 2.4 --focus {1} "
-        "--methods linear --fail-below truth.psnr=25",
+        "--visibility none --methods linear --fail-below truth.psnr=25",
         still, focus));
     EXPECT_EQ(pull.code, 0) << focus << ": " << pull.err;
   }
