@@ -94,6 +94,17 @@ std::string path(const std::vector<std::pair<double, double>>& points, const Sca
   return text;
 }
 
+// Without what is not finite or beyond any measure; with the tiny, which would be lost in a logarithm, as 0.
+std::vector<std::pair<double, double>> drawable(std::vector<std::pair<double, double>> points) {
+  constexpr double most = 1e30;
+  std::erase_if(points, [](const auto& p) { return !(std::fabs(p.first) < most && std::fabs(p.second) < most); });
+  for (auto& [x, y] : points) {
+    if (std::fabs(x) < 1 / most) x = 0;
+    if (std::fabs(y) < 1 / most) y = 0;
+  }
+  return points;
+}
+
 std::string axes(const Plot& plot, const Scale& x, const Scale& y) {
   const double right = kWidth - kRight, bottom = kHeight - kBottom;
   std::string text;
@@ -192,7 +203,7 @@ std::string svg(const Plot& plot) {
   std::vector<double> xs, ys;
   std::vector<Series> kept = plot.series;
   for (Series& series : kept) {
-    std::erase_if(series.points, [](const auto& p) { return !std::isfinite(p.first) || !std::isfinite(p.second); });
+    series.points = drawable(series.points);
     for (const auto& [x, y] : series.points) {
       xs.push_back(x);
       ys.push_back(y);
@@ -204,7 +215,8 @@ std::string svg(const Plot& plot) {
       "role=\"img\">\n<title>{}</title>\n",
       kWidth, kHeight, escaped(plot.title));
   text += axes(plot, x, y);
-  if (plot.front.size() > 1) text += fmt::format("<path class=\"front\" d=\"{}\"/>\n", path(plot.front, x, y));
+  if (plot.front.size() > 1)
+    text += fmt::format("<path class=\"front\" d=\"{}\"/>\n", path(drawable(plot.front), x, y));
   for (const Series& series : kept) {
     text += fmt::format("<g><title>{}</title>", escaped(series.label));
     if (series.line && series.points.size() > 1) {
