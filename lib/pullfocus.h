@@ -9,6 +9,7 @@
 //   scatter/     KernelShape; kernels as run edges; sources into destination bands
 //   resolve/     sums of weighted colour divided by sums of weight
 //   filter/      LinearFilter and IncrementalFilter behind one interface; Stats; the Plan; explain()
+//   metrics/     how far two pictures are apart: RMSE, PSNR, relative MSE, SSIM, FLIP
 //
 // Files are none of the core's business: exr/ (a library of its own) reads and writes sequences.
 //
@@ -43,3 +44,4 @@
 #include "image/error.h"
 #include "image/frame.h"
 #include "image/window.h"
+#include "metrics/metrics.h"

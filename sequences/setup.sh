@@ -4,7 +4,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libopenexr-dev libimath-dev   # EXR files, half floats
-  libopenimageio-dev            # pictures: aperture images
+  libopenimageio-dev            # pictures: aperture images, reports; an independent compare in the tests
   libtbb-dev                    # threads
   libhwy-dev                    # SIMD with run-time dispatch
   libfmt-dev libcli11-dev       # text, command line

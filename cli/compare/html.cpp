@@ -62,19 +62,6 @@ std::string error_table(const ShotResult& shot, Against against) {
 
 const Measure& measure(const std::string& name) { return *std::ranges::find(measures(), name, &Measure::name); }
 
-// Points that nothing beats in both, by rising time.
-std::vector<std::pair<double, double>> pareto(std::vector<std::pair<double, double>> points, bool higher_is_better) {
-  std::ranges::sort(points, [&](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first < b.first : higher_is_better ? a.second > b.second : a.second < b.second;
-  });
-  std::vector<std::pair<double, double>> front;
-  for (const auto& p : points) {
-    if (front.empty() || (higher_is_better ? p.second > front.back().second : p.second < front.back().second))
-      front.push_back(p);
-  }
-  return front;
-}
-
 std::string time_against(const ShotResult& shot, Against against, const Measure& m, const std::string& title) {
   Plot plot{title, {"median ms a frame"}, {m.title, !m.higher_is_better}, {}, {}};
   std::vector<std::pair<double, double>> all;

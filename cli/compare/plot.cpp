@@ -199,6 +199,18 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+std::vector<std::pair<double, double>> pareto(std::vector<std::pair<double, double>> points, bool higher_y_is_better) {
+  const auto better = [&](double a, double b) { return higher_y_is_better ? a > b : a < b; };
+  std::ranges::sort(points, [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : better(a.second, b.second);
+  });
+  std::vector<std::pair<double, double>> front;
+  for (const auto& point : points) {
+    if (front.empty() || better(point.second, front.back().second)) front.push_back(point);
+  }
+  return front;
+}
+
 std::string svg(const Plot& plot) {
   std::vector<double> xs, ys;
   std::vector<Series> kept = plot.series;

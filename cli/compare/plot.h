@@ -29,6 +29,9 @@ struct Plot {
 
 std::string svg(const Plot& plot);
 
+// The Pareto front: points that no other one beats in both, by rising x; of x less is better.
+std::vector<std::pair<double, double>> pareto(std::vector<std::pair<double, double>> points, bool higher_y_is_better);
+
 // The marker of a style alone, for legends.
 std::string marker_svg(std::size_t style);
 

@@ -93,6 +93,14 @@ TEST(CompareParts, PlotsAreWellFormedWhateverTheyHold) {
   }
 }
 
+TEST(CompareParts, TheFrontHoldsWhatNothingBeats) {
+  using Points = std::vector<std::pair<double, double>>;
+  const Points points{{3, 1}, {1, 5}, {2, 5}, {2, 3}, {4, 1}, {5, 0}, {1, 7}};
+  EXPECT_EQ(pareto(points, false), (Points{{1, 5}, {2, 3}, {3, 1}, {5, 0}}));
+  EXPECT_EQ(pareto(points, true), (Points{{1, 7}}));
+  EXPECT_EQ(pareto({}, true), Points{});
+}
+
 TEST(CompareParts, EscapedTextIsValidUtf8WithoutMarkup) {
   EXPECT_EQ(escaped("a<b>&\"\xc3\xa9\n"), "a&lt;b&gt;&amp;&quot;\xc3\xa9?");
   EXPECT_EQ(escaped("\xff\xc3 \xe2\x82\xac"), "?? \xe2\x82\xac");
