@@ -10,7 +10,6 @@
 #include "compare/report.h"
 #include "compare/run.h"
 #include "image/error.h"
-#include "progress.h"
 
 namespace pullfocus::cli {
 
@@ -90,13 +89,8 @@ std::string truth_of(const CompareArguments& a, std::size_t i) { return a.truths
 ShotResult compare_one(const Arguments& a, const std::vector<Group>& groups, std::size_t i) {
   InputArguments input = a.input;
   input.input = a.compare.inputs[i];
-  if (a.compare.given) {
-    Progress progress(1);
-    return compare_given(input, a.compare.references[i], a.compare, [](int) {});
-  }
-  FilterComparison comparison(input, a.camera, groups, a.compare, truth_of(a.compare, i));
-  Progress progress(comparison.frames());
-  return comparison.run([&](int frame) { progress.done(frame); });
+  if (a.compare.given) return compare_given(input, a.compare.references[i], a.compare);
+  return FilterComparison(input, a.camera, groups, a.compare, truth_of(a.compare, i)).run();
 }
 
 int compare(const Arguments& a) {

@@ -8,6 +8,7 @@
 #include "compare/run.h"
 #include "compare/thumbnails.h"
 #include "image/error.h"
+#include "progress.h"
 
 namespace pullfocus::cli {
 
@@ -183,13 +184,12 @@ FilterComparison::FilterComparison(const InputArguments& input, const CameraArgu
 
 FilterComparison::~FilterComparison() = default;
 
-std::size_t FilterComparison::frames() const noexcept { return work_->frames.size(); }
-
-ShotResult FilterComparison::run(const FrameDone& done) {
+ShotResult FilterComparison::run() {
+  Progress progress(work_->frames.size());
   for (std::size_t i = 0; i < work_->frames.size(); ++i) {
     if (interrupted()) throw Error(ErrorCode::content, "interrupted: nothing was written");
     work_->do_frame(i);
-    done(work_->frames[i].frame);
+    progress.done(work_->frames[i].frame);
   }
   return std::move(work_->result);
 }

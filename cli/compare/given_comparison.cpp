@@ -6,6 +6,7 @@
 #include "compare/thumbnails.h"
 #include "exr/range.h"
 #include "image/error.h"
+#include "progress.h"
 
 namespace pullfocus::cli {
 
@@ -35,8 +36,7 @@ void require_same_frames(const PictureSequence& given, const PictureSequence& re
 
 }  // namespace
 
-ShotResult compare_given(const InputArguments& input, const std::string& reference_pattern, const CompareArguments& a,
-                         const FrameDone& done) {
+ShotResult compare_given(const InputArguments& input, const std::string& reference_pattern, const CompareArguments& a) {
   const exr::ChannelOptions channels{input.layer, input.view, {}, true};
   const std::string range = input.frames.value_or("");
   const PictureSequence given(input.input, range, "", channels);
@@ -57,6 +57,7 @@ ShotResult compare_given(const InputArguments& input, const std::string& referen
   row.method = row.label = "given";
   const auto& frames = given.sequence().frames;
   Frame picture, right;
+  Progress progress(frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (interrupted()) throw Error(ErrorCode::content, "interrupted: nothing was written");
     given.read(frames[i], result.window, picture);
@@ -70,7 +71,7 @@ ShotResult compare_given(const InputArguments& input, const std::string& referen
       row.pictures = {thumbnail("given", picture.colour, result.window),
                       error_thumbnail("FLIP against reference", picture.colour, right.colour, result.window)};
     }
-    done(frames[i].frame);
+    progress.done(frames[i].frame);
   }
   return result;
 }

@@ -2,7 +2,7 @@
 // filters and of a handful of pictures, whatever the length of the shot.
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,8 +20,6 @@ struct CompareArguments {
   std::string json, csv, html;
 };
 
-using FrameDone = std::function<void(int frame)>;  // for progress
-
 inline constexpr int kQuickFrames = 6;
 
 // All filters on every frame before the next frame, in an order that moves on from frame to frame, so that what else
@@ -31,8 +29,7 @@ class FilterComparison {
   FilterComparison(const InputArguments& input, const CameraArguments& camera, const std::vector<Group>& groups,
                    const CompareArguments& arguments, const std::string& truth);
   ~FilterComparison();
-  std::size_t frames() const noexcept;
-  ShotResult run(const FrameDone& done);
+  ShotResult run();  // with a progress line
 
  private:
   struct Work;
@@ -40,7 +37,6 @@ class FilterComparison {
 };
 
 // The input's own pictures against the reference's, over the display window and all data; every frame that either has.
-ShotResult compare_given(const InputArguments& input, const std::string& reference, const CompareArguments& arguments,
-                         const FrameDone& done);
+ShotResult compare_given(const InputArguments& input, const std::string& reference, const CompareArguments& arguments);
 
 }  // namespace pullfocus::cli
