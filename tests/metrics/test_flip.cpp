@@ -1,4 +1,4 @@
-// FLIP: against values of the authors' formulas computed elsewhere, against plain sums in two dimensions, and where the
+// FLIP: against values of the authors' formulas computed elsewhere, against fixed figures, and where the
 // truth is known.
 #include "metrics/flip.h"
 
