@@ -1,0 +1,48 @@
+// Colour of a surface: textured Lambert and Phong with emission. It depends on the surface and the direction it is seen
+// from alone, not on any random number, so that pinhole pictures and lens-sampled ones differ by depth of field only.
+//
+// Lights give hard shadows; the rest of the sky gives ambient light, dimmed by the surface's openness, and a plain
+// reflection. The metallic-roughness model of glTF is mapped to Phong: diffuse = base (1 - metallic), specular =
+// mix(0.04, base, metallic), exponent 2 / roughness^4 - 2.
+#pragma once
+
+#include <vector>
+
+#include "render/intersector.h"
+
+namespace pullfocus::sequences {
+
+// Radiance of what lies at infinity, by direction: from the horizon up and down.
+struct Sky {
+  glm::vec3 bottom{0}, horizon{0}, top{0};
+
+  glm::vec3 radiance(const glm::vec3& direction) const noexcept;  // any length
+};
+
+struct PlacedLight {
+  Light light;
+  glm::vec3 position{0}, direction{0, -1, 0};  // direction in which it shines, unit length
+};
+
+struct Lighting {
+  std::vector<PlacedLight> lights;
+  Sky sky;                   // as seen where nothing is, and in reflections
+  glm::vec3 ambient_top{0};  // irradiance / pi on a surface facing up, and one facing down
+  glm::vec3 ambient_bottom{0};
+};
+
+// The things of one frame: those that stand still and those that move.
+struct World {
+  const Intersector* still = nullptr;
+  const Intersector* moving = nullptr;
+  const std::vector<Texture>* textures = nullptr;
+  float shadow_offset = 0;  // of shadow rays from their surface, scene units
+
+  bool nearest(const Ray& ray, float from, Surface& surface) const;
+  bool blocked(const glm::vec3& origin, const glm::vec3& direction, float to) const;
+};
+
+// Radiance towards -view; `view` is the ray's direction, any length.
+glm::vec3 shade(const World& world, const Lighting& lighting, const Surface& surface, const glm::vec3& view);
+
+}  // namespace pullfocus::sequences
