@@ -39,6 +39,8 @@ tinygltf::Image decoded(const tinygltf::Model& model, int index) {
                                  nullptr))
       throw Damaged(fmt::format("picture {} cannot be decoded: it must be PNG or JPEG", index));
   }
+  if (image.image.empty())
+    throw Damaged(fmt::format("picture {} ('{}') cannot be read: it must be PNG or JPEG", index, image.uri));
   const bool plain = image.width > 0 && image.height > 0 && image.width <= largest_picture &&
                      image.height <= largest_picture && image.component == 4 && (image.bits == 8 || image.bits == 16);
   const std::size_t pixels =

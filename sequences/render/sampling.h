@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <vector>
 
 namespace pullfocus::sequences {
 
@@ -51,51 +50,35 @@ constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) noexc
 // Sobol's second dimension: Pascal's triangle modulo 2, all columns at once.
 constexpr std::uint32_t sobol_second(std::uint32_t index) noexcept {
   std::uint32_t x = reverse_bits(index);
-  x ^= x >> 16;
-  x ^= (x & 0xff00ff00u) >> 8;
-  x ^= (x & 0xf0f0f0f0u) >> 4;
-  x ^= (x & 0xccccccccu) >> 2;
-  return x ^ ((x & 0xaaaaaaaau) >> 1);
+  x ^= x << 16;
+  x ^= (x & 0x00ff00ffu) << 8;
+  x ^= (x & 0x0f0f0f0fu) << 4;
+  x ^= (x & 0x33333333u) << 2;
+  return x ^ ((x & 0x55555555u) << 1);
 }
 
 inline float unit_interval(std::uint32_t bits) noexcept { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
 }  // namespace detail
 
-// Where on the pixel and where on the lens each of a pixel's samples goes.
-class SamplePattern {
+// Where on the pixel and where on the lens a pixel's samples go: two sequences of the pixel's own, paired at random.
+class PixelSamples {
  public:
-  explicit SamplePattern(int samples);  // >= 1
-
-  struct Point {
-    glm::vec2 pixel, lens;  // both in [0,1)^2
-  };
-  // Sample `index` of the pixel with this seed: the same pattern for all, shifted in its digits by the seed, which
-  // keeps it stratified.
-  Point at(std::size_t index, std::uint32_t seed) const noexcept {
-    const std::array<std::uint32_t, 4>& p = points_[index];
-    const auto shifted = [&](std::size_t i) {
-      return detail::unit_interval(p[i] ^ hash(seed + 0x9e3779b9u * static_cast<std::uint32_t>(i)));
-    };
-    return {{shifted(0), shifted(1)}, {shifted(2), shifted(3)}};
+  explicit PixelSamples(std::uint32_t seed) noexcept {
+    for (std::uint32_t i = 0; i < 6; ++i) seeds_[i] = hash(seed + 0x9e3779b9u * i);
   }
-  std::size_t size() const noexcept { return points_.size(); }
+  glm::vec2 pixel(std::uint32_t index) const noexcept { return point(index, 0); }
+  glm::vec2 lens(std::uint32_t index) const noexcept { return point(index, 3); }
 
  private:
-  std::vector<std::array<std::uint32_t, 4>> points_;
-};
-
-inline SamplePattern::SamplePattern(int samples) {
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(samples); ++i) {
-    const auto pair = [&](std::uint32_t seed) -> std::array<std::uint32_t, 2> {
-      const std::uint32_t k = detail::owen_scramble(i, hash(seed));  // pairs the two at random
-      return {detail::owen_scramble(detail::reverse_bits(k), hash(seed, 1)),
-              detail::owen_scramble(detail::sobol_second(k), hash(seed, 2))};
-    };
-    const auto pixel = pair(11), lens = pair(23);
-    points_.push_back({pixel[0], pixel[1], lens[0], lens[1]});
+  glm::vec2 point(std::uint32_t index, std::size_t first) const noexcept {
+    const std::uint32_t shuffled = detail::owen_scramble(index, seeds_[first]);
+    return {detail::unit_interval(detail::owen_scramble(detail::reverse_bits(shuffled), seeds_[first + 1])),
+            detail::unit_interval(detail::owen_scramble(detail::sobol_second(shuffled), seeds_[first + 2]))};
   }
-}
+
+  std::array<std::uint32_t, 6> seeds_{};
+};
 
 // From the unit square to the unit disc, areas in proportion (P. Shirley and K. Chiu, "A Low Distortion Map Between
 // Disk and Square", 1997).

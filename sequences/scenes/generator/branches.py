@@ -45,7 +45,7 @@ def build():
     file = File()
     file.camera("Camera", 0.3941, (0, 0, 0))
     sky = file.material((0, 0, 0), 1, emission=(1.9, 1.9, 1.9), glow="textures/evening.png")
-    file.node("Backdrop", file.mesh((plane((-24, -10, -55), (48, 0, 0), (0, 27, 0), (1, 1), (2, 1)), sky)))
+    file.node("Backdrop", file.mesh((plane((-24, -13, -55), (48, 0, 0), (0, 30, 0), (1, 1), (2, 1)), sky)))
     file.node("Sun", file.mesh((ball(0.75, 28, 16), file.material((0, 0, 0), 1, emission=(60, 42, 22)))), at=(6.4, -1.9, -50))
     bark = file.material(roughness=0.85, picture="textures/bark.png")
     colours = [file.material(c, 0.55) for c in ((0.72, 0.16, 0.04), (0.85, 0.38, 0.05), (0.62, 0.50, 0.08))]
