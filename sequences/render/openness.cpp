@@ -10,30 +10,31 @@
 namespace pullfocus::sequences {
 namespace {
 
-constexpr std::uint32_t directions = 32;
+constexpr int directions = 32;
 
 float openness_at(const World& world, const glm::vec3& position, const glm::vec3& normal, float reach,
-                  std::uint32_t seed) {
+                  const SamplePattern& pattern, std::uint32_t seed) {
   const glm::vec3 side = std::abs(normal.x) > 0.6f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
   const glm::vec3 u = glm::normalize(glm::cross(side, normal)), v = glm::cross(normal, u);
   const glm::vec3 start = position + 4 * world.shadow_offset * normal;
   int open = 0;
-  const PixelSamples samples(seed);
-  for (std::uint32_t i = 0; i < directions; ++i) {
-    const glm::vec2 p = concentric_disc(samples.lens(i));  // projected hemisphere: cosine-weighted
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    const glm::vec2 p = concentric_disc(pattern.lens(i, seed));  // projected hemisphere: cosine-weighted
     const float height = std::sqrt(std::max(0.0f, 1 - glm::dot(p, p)));
     if (!world.blocked(start, p.x * u + p.y * v + height * normal, reach)) ++open;
   }
-  return static_cast<float>(open) / static_cast<float>(directions);
+  return static_cast<float>(open) / static_cast<float>(pattern.size());
 }
 
 }  // namespace
 
 std::vector<float> openness(const World& world, const PlacedMesh& mesh, float reach) {
   if (mesh.normals.empty()) return {};
+  const SamplePattern pattern(directions);
   std::vector<float> result(mesh.positions.size(), 1.0f);
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
-    result[i] = openness_at(world, mesh.positions[i], mesh.normals[i], reach, hash(static_cast<std::uint32_t>(i)));
+    result[i] =
+        openness_at(world, mesh.positions[i], mesh.normals[i], reach, pattern, hash(static_cast<std::uint32_t>(i)));
   });
   return result;
 }

@@ -110,15 +110,14 @@ struct ShotRenderer::Stage {
   }
 
   // Mean colour of a pixel; on the lens or, if not `through_lens`, at its middle.
-  glm::vec3 pixel(int x, int y, int count, std::uint32_t seed, bool through_lens) const {
+  glm::vec3 pixel(int x, int y, const SamplePattern& pattern, std::uint32_t seed, bool through_lens) const {
     glm::dvec3 sum(0);
     const glm::vec2 corner(x, y);
-    const PixelSamples samples(seed);
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
-      const glm::vec2 lens = through_lens ? concentric_disc(samples.lens(i)) : glm::vec2(0);
-      sum += colour(camera.ray(corner + samples.pixel(i), lens));
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+      const glm::vec2 lens = through_lens ? concentric_disc(pattern.lens(i, seed)) : glm::vec2(0);
+      sum += colour(camera.ray(corner + pattern.pixel(i, seed), lens));
     }
-    return sum / static_cast<double>(count);
+    return sum / static_cast<double>(pattern.size());
   }
 
   FrameCamera camera;
@@ -179,8 +178,9 @@ void ShotRenderer::render(int frame, int samples, Frame& out) const {
   out.colour.reset(window, SampleType::half);
   out.depth.reset(window, sky_depth);
   out.has_alpha = false;
+  const SamplePattern pattern(samples);
   for_pixels(raster_, [&](int x, int y) {
-    glm::vec3 colour = now->pixel(x, y, samples, pixel_seed(x, y), false);
+    glm::vec3 colour = now->pixel(x, y, pattern, pixel_seed(x, y), false);
     if (shot_.noise > 0) colour *= noise_factor(shot_.noise, x, y, frame);
     store(out.colour, x, y, colour);
     Surface surface;
@@ -192,13 +192,15 @@ void ShotRenderer::render(int frame, int samples, Frame& out) const {
 void ShotRenderer::truth(int frame, int samples, ColourImage& out) const {
   const auto now = stage(frame);
   out.reset({0, 0, raster_.width, raster_.height}, SampleType::float32);
-  for_pixels(raster_, [&](int x, int y) { store(out, x, y, now->pixel(x, y, samples, pixel_seed(x, y), true)); });
+  const SamplePattern pattern(samples);
+  for_pixels(raster_, [&](int x, int y) { store(out, x, y, now->pixel(x, y, pattern, pixel_seed(x, y), true)); });
 }
 
 void ShotRenderer::truth_of_views(int frame, int views, ColourImage& out) const {
   const auto now = stage(frame);
   out.reset({0, 0, raster_.width, raster_.height}, SampleType::float32);
-  for_pixels(raster_, [&](int x, int y) { store(out, x, y, now->pixel(x, y, views, 0, true)); });
+  const SamplePattern pattern(views);
+  for_pixels(raster_, [&](int x, int y) { store(out, x, y, now->pixel(x, y, pattern, 0, true)); });
 }
 
 void ShotRenderer::deep(int frame, DeepPixels& out) const {

@@ -7,30 +7,39 @@
 namespace pullfocus::sequences::test {
 namespace {
 
-TEST(Sampling, EveryPowerOfTwoOfPointsFillsAllElementaryIntervalsOnce) {
+TEST(Sampling, EveryPowerOfTwoOfLensPointsFillsAllElementaryIntervalsOnce) {
+  const SamplePattern pattern(256);
   for (const std::uint32_t seed : {0u, 1u, 77u, 0xffffffffu}) {
-    const PixelSamples samples(seed);
-    for (const bool lens : {false, true})
-      for (std::uint32_t bits = 0; bits <= 8; ++bits)
-        for (std::uint32_t columns = 0; columns <= bits; ++columns) {
-          const auto width = static_cast<float>(1u << columns), height = static_cast<float>(1u << (bits - columns));
-          std::vector<int> points(std::size_t{1} << bits, 0);
-          for (std::uint32_t i = 0; i < points.size(); ++i) {
-            const glm::vec2 p = lens ? samples.lens(i) : samples.pixel(i);
-            ++points[static_cast<std::size_t>(p.x * width) * (1u << (bits - columns)) +
-                     static_cast<std::size_t>(p.y * height)];
-          }
-          for (const int count : points) ASSERT_EQ(count, 1) << seed << ' ' << bits << ' ' << columns;
+    for (std::uint32_t bits = 0; bits <= 8; ++bits)
+      for (std::uint32_t columns = 0; columns <= bits; ++columns) {
+        const auto width = static_cast<float>(1u << columns), height = static_cast<float>(1u << (bits - columns));
+        std::vector<int> points(std::size_t{1} << bits, 0);
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+          const glm::vec2 p = pattern.lens(i, seed);
+          ++points[static_cast<std::size_t>(p.x * width) * (1u << (bits - columns)) +
+                   static_cast<std::size_t>(p.y * height)];
         }
+        for (const int count : points) ASSERT_EQ(count, 1) << seed << ' ' << bits << ' ' << columns;
+      }
   }
 }
 
+TEST(Sampling, PixelPointsAreStratifiedEachWay) {
+  const SamplePattern pattern(64);
+  for (const std::uint32_t seed : {0u, 5u})
+    for (int axis = 0; axis < 2; ++axis) {
+      std::vector<int> points(64, 0);
+      for (std::size_t i = 0; i < 64; ++i) ++points[static_cast<std::size_t>(pattern.pixel(i, seed)[axis] * 64)];
+      for (const int count : points) ASSERT_EQ(count, 1);
+    }
+}
+
 TEST(Sampling, PixelAndLensAreIndependent) {
+  const SamplePattern pattern(16);
   double product = 0;
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
-    const PixelSamples samples(seed);
     for (std::uint32_t i = 0; i < 16; ++i)
-      product += static_cast<double>((samples.pixel(i).x - 0.5f) * (samples.lens(i).x - 0.5f));
+      product += static_cast<double>((pattern.pixel(i, seed).x - 0.5f) * (pattern.lens(i, seed).x - 0.5f));
   }
   EXPECT_NEAR(product / 6400, 0, 0.004);  // 1/12 if equal; one standard deviation is 0.001
 }

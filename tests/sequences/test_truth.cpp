@@ -52,7 +52,7 @@ struct Setting {
 // The radius of a uniform disc is sqrt(2 <r^2>). Of <r^2>, the square that stands for the light has s^2/6, pixels 1/6.
 double measured_radius(const ShotRenderer& renderer, double side_px) {
   ColourImage image;
-  renderer.truth(1, 4096, image);
+  renderer.truth(1, 1024, image);
   double sum = 0, sx = 0, sy = 0, square = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
