@@ -9,7 +9,8 @@ packages=(
   libhwy-dev                    # SIMD with run-time dispatch
   libfmt-dev libcli11-dev       # text, command line
   nlohmann-json3-dev libtomlplusplus-dev
-  libglm-dev                    # the demo shot's geometry
+  libglm-dev                    # geometry of shots
+  libembree-dev libtinygltf-dev # rays, glTF scenes
   libgtest-dev                  # tests
   openimageio-tools             # the demo's PNG; an independent reader in the tests
 )

@@ -98,6 +98,7 @@ Intersector::Intersector(const Device& device, std::vector<PlacedMesh> meshes)
 Intersector::~Intersector() { rtcReleaseScene(scene_); }
 
 bool Intersector::nearest(const Ray& ray, float from, float to, Surface& surface) const {
+  if (meshes_.empty()) return false;
   RTCRayHit query;
   set_ray(query.ray, ray.origin, ray.direction, from, to);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -111,6 +112,7 @@ bool Intersector::nearest(const Ray& ray, float from, float to, Surface& surface
 }
 
 bool Intersector::blocked(const glm::vec3& origin, const glm::vec3& direction, float to) const {
+  if (meshes_.empty()) return false;
   RTCRay query;
   set_ray(query, origin, direction, 0, to);
   RTCIntersectContext context;

@@ -65,7 +65,8 @@ glm::vec3 direct(const World& world, const Lighting& lighting, const Surface& su
     if (light.light.casts_shadow && world.blocked(surface.position + world.shadow_offset * surface.facet_normal,
                                                   from.towards, from.distance - 2 * world.shadow_offset))
       continue;
-    const float lobe = std::pow(std::max(glm::dot(mirrored, from.towards), 0.0f), r.exponent);
+    const float aligned = glm::dot(mirrored, from.towards);
+    const float lobe = aligned > 0 ? std::pow(aligned, r.exponent) : 0;
     sum += from.irradiance * slant * (r.diffuse / pi + r.specular * (lobe * (r.exponent + 2) / (2 * pi)));
   }
   return sum;
