@@ -94,7 +94,7 @@ def build():
     wood = file.material(roughness=0.45, picture="textures/wood.png")
     wall = file.material(roughness=0.95, picture="textures/wallpaper.png")
     plastic, dark = file.material((0.70, 0.64, 0.52), 0.5), file.material((0.25, 0.24, 0.22), 0.5)
-    steel, chrome = file.material((0.23, 0.33, 0.32), 0.35), file.material((0.9, 0.9, 0.92), 0.2, 1)
+    steel, chrome = file.material((0.23, 0.33, 0.32), 0.35), file.material((0.9, 0.9, 0.92), 0.45, 1)
     brass, paper = file.material((0.95, 0.72, 0.34), 0.33, 1), file.material((0.92, 0.89, 0.80), 0.9)
     lit = file.material((0.02, 0.02, 0.02), 0.15, emission=(1.3, 1.3, 1.3), glow="textures/screen.png")
 
