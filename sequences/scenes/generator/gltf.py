@@ -17,8 +17,12 @@ def png(path, width, height, pixel):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     with open(path, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-                  chunk(b"IDAT", zlib.compress(bytes(rows), 9)) + chunk(b"IEND", b""))
+        out.write(
+            b"\x89PNG\r\n\x1a\n"
+            + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(bytes(rows), 9))
+            + chunk(b"IEND", b"")
+        )
 
 
 class File:
@@ -70,13 +74,19 @@ class File:
             points, normals, uvs, triangles = shape
             corners = [c for t in triangles for c in t]
             wide = len(points) > 65535
-            primitives.append({
-                "attributes": {
-                    "POSITION": self.accessor(points, "VEC3", 5126, "f", True),
-                    "NORMAL": self.accessor([tuple(round(32767 * c) for c in n) + (0,) for n in normals], "VEC4", 5122, "h"),
-                    "TEXCOORD_0": self.accessor(uvs, "VEC2", 5126, "f")},
-                "indices": self.accessor(corners, "SCALAR", 5125 if wide else 5123, "I" if wide else "H"),
-                "material": material})
+            primitives.append(
+                {
+                    "attributes": {
+                        "POSITION": self.accessor(points, "VEC3", 5126, "f", True),
+                        "NORMAL": self.accessor(
+                            [tuple(round(32767 * c) for c in n) + (0,) for n in normals], "VEC4", 5122, "h"
+                        ),
+                        "TEXCOORD_0": self.accessor(uvs, "VEC2", 5126, "f"),
+                    },
+                    "indices": self.accessor(corners, "SCALAR", 5125 if wide else 5123, "I" if wide else "H"),
+                    "material": material,
+                }
+            )
             # Normals are shorts with a fourth one for alignment, which the type leaves out.
             normal = primitives[-1]["attributes"]["NORMAL"]
             self.accessors[normal].update(type="VEC3", normalized=True)
@@ -86,7 +96,13 @@ class File:
 
     def node(self, name, mesh=None, at=None, turn=None, scale=None, parent=None, camera=None):
         entry = {"name": name}
-        for key, value in (("mesh", mesh), ("camera", camera), ("translation", at), ("rotation", turn), ("scale", scale)):
+        for key, value in (
+            ("mesh", mesh),
+            ("camera", camera),
+            ("translation", at),
+            ("rotation", turn),
+            ("scale", scale),
+        ):
             if value is not None:
                 entry[key] = list(value) if isinstance(value, (tuple, list)) else value
         self.nodes.append(entry)
@@ -98,24 +114,38 @@ class File:
         return index
 
     def camera(self, name, yfov, at, turn=(0, 0, 0, 1)):
-        self.cameras.append({"type": "perspective", "perspective": {"yfov": yfov, "znear": 0.001, "aspectRatio": 16 / 9}})
+        self.cameras.append(
+            {"type": "perspective", "perspective": {"yfov": yfov, "znear": 0.001, "aspectRatio": 16 / 9}}
+        )
         return self.node(name, at=at, turn=turn, camera=len(self.cameras) - 1)
 
     def animate(self, animation, node, path, times, values, easing="LINEAR"):
         entry = self.animations.setdefault(animation, {"name": animation, "channels": [], "samplers": []})
         kind = "VEC4" if path == "rotation" else "VEC3"
-        entry["samplers"].append({"input": self.accessor(times, "SCALAR", 5126, "f", True),
-                                  "output": self.accessor(values, kind, 5126, "f"), "interpolation": easing})
+        entry["samplers"].append(
+            {
+                "input": self.accessor(times, "SCALAR", 5126, "f", True),
+                "output": self.accessor(values, kind, 5126, "f"),
+                "interpolation": easing,
+            }
+        )
         entry["channels"].append({"sampler": len(entry["samplers"]) - 1, "target": {"node": node, "path": path}})
 
     def write(self, name):
         document = {
-            "asset": {"version": "2.0", "generator": "sequences/scenes/generator"}, "scene": 0,
-            "scenes": [{"nodes": self.roots}], "nodes": self.nodes, "meshes": self.meshes, "materials": self.materials,
-            "cameras": self.cameras, "accessors": self.accessors, "bufferViews": self.views,
+            "asset": {"version": "2.0", "generator": "sequences/scenes/generator"},
+            "scene": 0,
+            "scenes": [{"nodes": self.roots}],
+            "nodes": self.nodes,
+            "meshes": self.meshes,
+            "materials": self.materials,
+            "cameras": self.cameras,
+            "accessors": self.accessors,
+            "bufferViews": self.views,
             "buffers": [{"uri": name + ".bin", "byteLength": len(self.data)}],
             "extensionsUsed": ["KHR_materials_emissive_strength", "KHR_mesh_quantization"],
-            "extensionsRequired": ["KHR_mesh_quantization"]}
+            "extensionsRequired": ["KHR_mesh_quantization"],
+        }
         if self.images:
             document["images"] = [{"uri": picture} for picture in self.images]
             document["samplers"] = [{}]

@@ -3,11 +3,24 @@ import math
 from math import cos, pi, sin
 
 
-def add(a, b): return tuple(x + y for x, y in zip(a, b))
-def sub(a, b): return tuple(x - y for x, y in zip(a, b))
-def times(s, a): return tuple(s * x for x in a)
-def dot(a, b): return sum(x * y for x, y in zip(a, b))
-def cross(a, b): return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+def add(a, b):
+    return tuple(x + y for x, y in zip(a, b))
+
+
+def sub(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def times(s, a):
+    return tuple(s * x for x in a)
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def unit(a):
@@ -52,17 +65,28 @@ def moved(shape, by=(0, 0, 0), scale=(1, 1, 1), about=None, degrees=0):
             return v
         k, a = unit(about), math.radians(degrees)
         return add(add(times(cos(a), v), times(sin(a), cross(k, v))), times(dot(k, v) * (1 - cos(a)), k))
+
     points, normals, uvs, triangles = shape
-    return ([add(rotated(tuple(s * c for s, c in zip(scale, p))), by) for p in points],
-            [unit(rotated(tuple(c / s for s, c in zip(scale, n)))) for n in normals], uvs, triangles)
+    return (
+        [add(rotated(tuple(s * c for s, c in zip(scale, p))), by) for p in points],
+        [unit(rotated(tuple(c / s for s, c in zip(scale, n)))) for n in normals],
+        uvs,
+        triangles,
+    )
 
 
 def plane(origin, u, v, cells, repeat=(1, 1)):
     """Parallelogram from origin along u and v, normal u x v; uv runs to `repeat`, v downwards in the picture."""
     normal = unit(cross(u, v))
-    return sheet(cells[0], cells[1], lambda i, j: (
-        add(origin, add(times(i / cells[0], u), times(j / cells[1], v))), normal,
-        (repeat[0] * i / cells[0], repeat[1] * (1 - j / cells[1]))))
+    return sheet(
+        cells[0],
+        cells[1],
+        lambda i, j: (
+            add(origin, add(times(i / cells[0], u), times(j / cells[1], v))),
+            normal,
+            (repeat[0] * i / cells[0], repeat[1] * (1 - j / cells[1])),
+        ),
+    )
 
 
 def box(size, bevel, cuts=3, steps=2):
@@ -73,6 +97,7 @@ def box(size, bevel, cuts=3, steps=2):
     def line(axis):
         side = [-half[axis] + bevel * k / steps for k in range(steps)]
         return side + [inner[axis] * (2 * k / cuts - 1) for k in range(cuts + 1)] + [-s for s in reversed(side)]
+
     faces = []
     for axis in range(3):
         for sign in (-1, 1):
@@ -87,6 +112,7 @@ def box(size, bevel, cuts=3, steps=2):
                 share_a, share_b = la[i] / (2 * half[a]) + 0.5, lb[j] / (2 * half[b]) + 0.5
                 # Upright on the faces at front and back, whose a, b are x, y.
                 return add(core, times(bevel, normal)), normal, (share_a, 1 - share_b)
+
             faces.append(sheet(len(la) - 1, len(lb) - 1, surface))
     return join(*faces)
 
@@ -103,13 +129,18 @@ def lathe(profile, segments=40, repeat=(1, 1)):
     pieces.append(piece)
     shapes = []
     for piece in pieces:
+
         def surface(i, j, piece=piece):
             a = 2 * pi * i / segments
             before, after = piece[max(j - 1, 0)], piece[min(j + 1, len(piece) - 1)]
             nr, ny = after[1] - before[1], before[0] - after[0]
             r, y = piece[j]
-            return ((r * sin(a), y, r * cos(a)), unit((nr * sin(a), ny, nr * cos(a))),
-                    (repeat[0] * i / segments, repeat[1] * (1 - j / max(len(piece) - 1, 1))))
+            return (
+                (r * sin(a), y, r * cos(a)),
+                unit((nr * sin(a), ny, nr * cos(a))),
+                (repeat[0] * i / segments, repeat[1] * (1 - j / max(len(piece) - 1, 1))),
+            )
+
         shapes.append(sheet(segments, len(piece) - 1, surface))
     return join(*shapes)
 
@@ -139,13 +170,16 @@ def tube(path, radius, sides=10, twist=0.0, bumps=0, bump=0.0, around=1):
         du = sub(point(i + 0.01, j), point(i - 0.01, j))
         dv = sub(point(i, min(j + 1, len(path) - 1)), point(i, max(j - 1, 0)))
         return point(i, j), unit(cross(du, dv)), (around * i / sides, j / len(path))
+
     return sheet(sides, len(path) - 1, surface)
 
 
 def star(radius, notch, height):
     """Five points, ten facets each side, in the xy plane."""
     points, normals, uvs, triangles = [], [], [], []
-    rim = [(r * sin(pi * k / 5), r * cos(pi * k / 5), 0.0) for k in range(10) for r in [radius if k % 2 == 0 else notch]]
+    rim = [
+        (r * sin(pi * k / 5), r * cos(pi * k / 5), 0.0) for k in range(10) for r in [radius if k % 2 == 0 else notch]
+    ]
     for top in (height, -height):
         for k in range(10):
             a, b = (rim[k], rim[(k + 1) % 10]) if top < 0 else (rim[(k + 1) % 10], rim[k])

@@ -6,10 +6,12 @@ from gltf import png
 
 def noise(x, y, period, seed):
     """Smooth value noise 0..1 that repeats after `period` cells."""
+
     def value(i, j):
-        h = ((i % period) * 374761393 + (j % period) * 668265263 + seed * 2246822519) & 0xffffffff
-        h = ((h ^ (h >> 13)) * 1274126177) & 0xffffffff
-        return ((h ^ (h >> 16)) & 0xffff) / 65535
+        h = ((i % period) * 374761393 + (j % period) * 668265263 + seed * 2246822519) & 0xFFFFFFFF
+        h = ((h ^ (h >> 13)) * 1274126177) & 0xFFFFFFFF
+        return ((h ^ (h >> 16)) & 0xFFFF) / 65535
+
     i, j = math.floor(x), math.floor(y)
     u, v = x - i, y - j
     u, v = u * u * (3 - 2 * u), v * v * (3 - 2 * v)
@@ -17,8 +19,12 @@ def noise(x, y, period, seed):
     return top * (1 - v) + (value(i, j + 1) * (1 - u) + value(i + 1, j + 1) * u) * v
 
 
-def mix(a, b, s): return tuple(x + (y - x) * s for x, y in zip(a, b))
-def shaded(c, s): return tuple(x * s for x in c)
+def mix(a, b, s):
+    return tuple(x + (y - x) * s for x, y in zip(a, b))
+
+
+def shaded(c, s):
+    return tuple(x * s for x in c)
 
 
 def wood(x, y, n=256):
@@ -33,8 +39,11 @@ def tiles(x, y, n=256):
     cell = n // 4
     light = (x // cell + y // cell) % 2 == 0
     vein = abs(noise(x / 16, y / 16, n // 16, 3) + 0.4 * noise(x / 5.12, y / 5.12, 50, 4) - 0.7)
-    base = mix((0.55, 0.52, 0.48), (0.93, 0.90, 0.84), min(vein * 5, 1)) if light else \
-        mix((0.45, 0.30, 0.24), (0.20, 0.13, 0.12), min(vein * 5, 1))
+    base = (
+        mix((0.55, 0.52, 0.48), (0.93, 0.90, 0.84), min(vein * 5, 1))
+        if light
+        else mix((0.45, 0.30, 0.24), (0.20, 0.13, 0.12), min(vein * 5, 1))
+    )
     return (0.25, 0.24, 0.22) if x % cell == 0 or y % cell == 0 else base
 
 
@@ -64,7 +73,7 @@ def screen(x, y, n=128):
         return (0.10, 0.45, 0.75)
     if x > 66 and 22 < y < 76:
         u = (x - 67) / 54
-        curve = 74 - 44 * math.exp(-((u - 0.55) / 0.2) ** 2) - 6 * u
+        curve = 74 - 44 * math.exp(-(((u - 0.55) / 0.2) ** 2)) - 6 * u
         if x < 69 or y > 73:
             return (0.6, 0.7, 0.7)
         return (1.0, 0.65, 0.15) if abs(y - curve) < 1.6 else (0.05, 0.14, 0.19) if y > curve else glow
@@ -81,7 +90,11 @@ def print_(x, y, n=256):
     stroke = noise(x * 0.9, y * 0.9, 251, 12) > 0.42
     head = y < 32
     if head:
-        return (0.15, 0.13, 0.12) if 4 < y < 26 and (x // 14) % 5 != 4 and noise(x / 3, y / 5, 101, 13) > 0.4 else (0.92, 0.89, 0.80)
+        return (
+            (0.15, 0.13, 0.12)
+            if 4 < y < 26 and (x // 14) % 5 != 4 and noise(x / 3, y / 5, 101, 13) > 0.4
+            else (0.92, 0.89, 0.80)
+        )
     return (0.16, 0.15, 0.15) if inked and stroke else (0.92, 0.89, 0.80)
 
 
@@ -101,14 +114,26 @@ def evening(x, y, n=256):
     sky = mix((0.36, 0.55, 0.86), (1.0, 0.80, 0.52), min(1, (v / 0.72) ** 1.5))
     cloud = noise(x / 25.6, y / 10.67, 10, 18) * 0.6 + noise(x / 12.8, y / 5.33, 20, 19) * 0.4
     sky = mix(sky, (1.0, 0.93, 0.85), max(0, cloud - 0.5) * 1.6)
-    for depth, height, tone in ((0.70, 0.06, (0.62, 0.56, 0.62)), (0.79, 0.07, (0.36, 0.38, 0.44)), (0.90, 0.06, (0.16, 0.20, 0.20))):
+    for depth, height, tone in (
+        (0.70, 0.06, (0.62, 0.56, 0.62)),
+        (0.79, 0.07, (0.36, 0.38, 0.44)),
+        (0.90, 0.06, (0.16, 0.20, 0.20)),
+    ):
         if v > depth - height * (noise(x / 51.2, 0.5, 5, int(depth * 100)) + 0.3 * noise(x / 12.8, 0.5, 20, 20)):
             sky = tone
     return sky
 
 
 def write_all():
-    for name, size, pixel in (("wood", 256, wood), ("tiles", 256, tiles), ("weave", 128, weave), ("print", 256, print_),
-                              ("wallpaper", 128, wallpaper), ("screen", 128, screen), ("bark", 128, bark),
-                              ("asphalt", 128, asphalt), ("evening", 256, evening)):
+    for name, size, pixel in (
+        ("wood", 256, wood),
+        ("tiles", 256, tiles),
+        ("weave", 128, weave),
+        ("print", 256, print_),
+        ("wallpaper", 128, wallpaper),
+        ("screen", 128, screen),
+        ("bark", 128, bark),
+        ("asphalt", 128, asphalt),
+        ("evening", 256, evening),
+    ):
         png("textures/%s.png" % name, size, size, pixel)
