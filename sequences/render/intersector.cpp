@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
+#include <utility>
 
 #include "image/error.h"
 
@@ -86,7 +89,18 @@ Intersector::Intersector(const Device& device, std::vector<PlacedMesh> meshes)
     : device_(device), meshes_(std::move(meshes)), scene_(rtcNewScene(device.get())) {
   // Without robust intersection rays along edges miss.
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  for (const PlacedMesh& mesh : meshes_) attach(device_.get(), scene_, mesh);
+  low_ = glm::vec3(std::numeric_limits<float>::max());
+  high_ = -low_;
+  for (const PlacedMesh& mesh : meshes_) {
+    attach(device_.get(), scene_, mesh);
+    for (const glm::vec3& p : mesh.positions) {
+      low_ = glm::min(low_, p);
+      high_ = glm::max(high_, p);
+    }
+  }
+  const glm::vec3 margin = 1e-4f * (high_ - low_ + glm::abs(low_) + glm::abs(high_));
+  low_ -= margin;
+  high_ += margin;
   // One thread, because the tree decides which of two triangles a ray on their common edge meets.
   tbb::task_arena(1).execute([&] { rtcCommitScene(scene_); });
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
@@ -95,10 +109,25 @@ Intersector::Intersector(const Device& device, std::vector<PlacedMesh> meshes)
   }
 }
 
+// Spares most rays the call where few things move. Comparisons with NaN (origin on the box's plane, direction along it)
+// are false, and leave the interval as it is.
+bool Intersector::misses(const glm::vec3& origin, const glm::vec3& direction, float to) const noexcept {
+  if (meshes_.empty()) return true;
+  float enter = 0, leave = to;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float inverse = 1 / direction[axis];
+    float first = (low_[axis] - origin[axis]) * inverse, last = (high_[axis] - origin[axis]) * inverse;
+    if (inverse < 0) std::swap(first, last);
+    if (first > enter) enter = first;
+    if (last < leave) leave = last;
+  }
+  return !(enter <= leave);
+}
+
 Intersector::~Intersector() { rtcReleaseScene(scene_); }
 
 bool Intersector::nearest(const Ray& ray, float from, float to, Surface& surface) const {
-  if (meshes_.empty()) return false;
+  if (misses(ray.origin, ray.direction, to)) return false;
   RTCRayHit query;
   set_ray(query.ray, ray.origin, ray.direction, from, to);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -112,7 +141,7 @@ bool Intersector::nearest(const Ray& ray, float from, float to, Surface& surface
 }
 
 bool Intersector::blocked(const glm::vec3& origin, const glm::vec3& direction, float to) const {
-  if (meshes_.empty()) return false;
+  if (misses(origin, direction, to)) return false;
   RTCRay query;
   set_ray(query, origin, direction, 0, to);
   RTCIntersectContext context;

@@ -53,9 +53,12 @@ class Intersector {
   std::vector<PlacedMesh>& meshes() noexcept { return meshes_; }  // of which only openness may change
 
  private:
+  bool misses(const glm::vec3& origin, const glm::vec3& direction, float to) const noexcept;
+
   Device device_;
   std::vector<PlacedMesh> meshes_;
   RTCScene scene_ = nullptr;
+  glm::vec3 low_, high_;  // a box around everything, a little larger than it need be
 };
 
 }  // namespace pullfocus::sequences
