@@ -24,8 +24,14 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
   app.add_option("--blade-roundness", a.kernel.blade_roundness, "of polygon:N: 0 straight blades, 1 a disc")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--visibility", a.visibility,
-                 "what lies before what: auto (layers), layers:BORDERS (CoC diameters in pixels, -2,2), none")
+  app.add_option(
+         "--visibility", a.visibility,
+         "what lies before what: auto (layers), layers:BORDERS (CoC diameters in pixels, -2,2), bitmap[:L] (nearer "
+         "pixels up to L/2 away block farther ones), none")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--cutoff", a.cutoff,
+                 "--visibility bitmap: CoC diameters that differ by up to so many pixels never hide each other")
       ->group(group)
       ->capture_default_str();
   app.add_option("--budget", a.budget,
@@ -118,6 +124,8 @@ FilterOptions filter_options(const FilterArguments& a, const ShotFacts& facts) {
   options.kernel.pixel_aspect = facts.pixel_aspect;
   options.kernel.max_radiance = a.max_radiance;
   options.kernel.shape = kernel_shape(a.kernel);
+  options.visibility = parse_visibility(a.visibility);
+  options.visibility.cutoff_px = a.cutoff;
   options.importance = {parse_order(a.order), a.w_coc, a.w_rgb, a.buckets,
                         ColourMetric(parse_colour_distance(a.colour_distance), facts.chromaticities)};
   options.thresholds = {coc_threshold(a.coc_threshold, facts.focal_length_px), a.rgb_threshold};
@@ -131,7 +139,6 @@ FilterOptions filter_options(const FilterArguments& a, const ShotFacts& facts) {
   } else if (!a.output_type.empty()) {
     throw Error(ErrorCode::usage, "--output-type '" + a.output_type + "' is not known: use half or float");
   }
-  options.visibility = Visibility::parse(a.visibility);
   parse_method(a.method);
   validate(options);
   return options;

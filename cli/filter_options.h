@@ -22,7 +22,7 @@ struct FilterArguments {
   double coc_step = KernelOptions{}.coc_step, max_coc = KernelOptions{}.max_coc_px;
   double w_coc = ImportanceOptions{}.w_coc, w_rgb = ImportanceOptions{}.w_rgb;
   int buckets = ImportanceOptions{}.buckets;
-  double rgb_threshold = 0, error_bound = 0;
+  double cutoff = VisibilityOptions{}.cutoff_px, rgb_threshold = 0, error_bound = 0;
   float max_radiance = KernelOptions{}.max_radiance;
   int threads = 0;
 };

@@ -141,8 +141,8 @@ Imf::Header FilterRun::header(const exr::SequenceFrame& from, const Window& data
   };
   say("pullfocus.version", kVersion);
   say("pullfocus.method",
-      fmt::format("{} kernel=\"{}\" visibility=none coc_step={} max_coc={}", method_, describe(options_.kernel.shape),
-                  options_.kernel.coc_step, options_.kernel.max_coc_px));
+      fmt::format("{} kernel=\"{}\" visibility=\"{}\" coc_step={} max_coc={}", method_, describe(options_.kernel.shape),
+                  describe(options_.visibility), options_.kernel.coc_step, options_.kernel.max_coc_px));
   say("pullfocus.camera", shot_.camera().describe(from.frame, current_.file));
   return header;
 }

@@ -109,8 +109,14 @@ void say_plan(const Plan& plan, const FilterOptions& options) {
   if (plan.clamped_coc > 0) {
     say("", "{} pixels are beyond --max-coc {:g} and are clamped to it", plan.clamped_coc, options.kernel.max_coc_px);
   }
-  say("plan", "visibility none: a single layer; alpha {}",
+  say("plan", "visibility {}: a single layer; alpha {}", describe(options.visibility),
       plan.alpha ? "is filtered too" : "is 1 everywhere: not accumulated");
+  if (options.visibility.kind == VisibilityOptions::Kind::bitmap) {
+    say("",
+        "bitmaps: in {} of {} tiles, for {:.1f} % of the pixels; elsewhere depth and CoC are too alike to hide "
+        "anything",
+        plan.bitmap_tiles, plan.tiles, 100 * static_cast<double>(plan.bitmap_pixels) / pixels);
+  }
   say("", "linear frame: {:.1f} M run edges, {:.1f} a pixel", static_cast<double>(plan.linear_edges) / 1e6,
       static_cast<double>(plan.linear_edges) / pixels);
   say("", "memory: {:.0f} + {:.0f} bytes a pixel (filter + frames), {:.0f} MB", plan.state_bytes_per_pixel,
@@ -125,13 +131,13 @@ void say_plan(const Plan& plan, const FilterOptions& options) {
 }
 
 void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction& coc, const KernelTable& kernels,
-                     const std::string& text) {
+                     const VisibilityOptions& visibility, const std::string& text) {
   const FocusPixel pixel = FocusPixel::parse(text);
   if (!shot.state_window().contains(pixel.x, pixel.y)) {
     throw Error(ErrorCode::usage,
                 fmt::format("--explain {}: outside the state window, {}", text, window_text(shot.state_window())));
   }
-  const Explanation e = explain(read.frame, coc, kernels, pixel.x, pixel.y, 8);
+  const Explanation e = explain(read.frame, coc, kernels, pixel.x, pixel.y, 8, visibility);
   say("pixel", "{},{}: depth {:g}{}; CoC {:.3f} px; index {}, kernel {:g} px wide", pixel.x, pixel.y, e.depth,
       e.background ? " (background)" : "", e.coc_px, e.index, e.diameter_px);
   say("", "colour {:g} {:g} {:g} {:g}", read.frame.colour.get(pixel.x, pixel.y, 0),
@@ -170,7 +176,7 @@ int inspect(const Arguments& a) {
   say_camera(shot, frames[0], first.file);
   say_kernel(kernels);
   say_plan(plan, options);
-  if (!a.explain.empty()) say_explanation(shot, first, coc, kernels, a.explain);
+  if (!a.explain.empty()) say_explanation(shot, first, coc, kernels, options.visibility, a.explain);
   return kDone;
 }
 

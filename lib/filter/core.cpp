@@ -24,8 +24,8 @@ const Window& checked(const Window& window) {
   return window;
 }
 
-std::span<const double> borders(const Visibility& visibility) noexcept {
-  if (visibility.kind == Visibility::Kind::none) return {};
+std::span<const double> borders(const VisibilityOptions& visibility) noexcept {
+  if (visibility.kind != VisibilityOptions::Kind::layers) return {};
   return visibility.borders;
 }
 
@@ -40,7 +40,11 @@ FilterCore::FilterCore(const Window& state_window, const FilterOptions& filter_o
       sanitiser(kernels->options().max_radiance),
       arena(threads),
       scatter(*kernels, window.width(), window.height()),
-      layers(kernels->coc(), borders(options.visibility)) {}
+      layers(kernels->coc(), borders(options.visibility)) {
+  if (options.visibility.kind == VisibilityOptions::Kind::bitmap) {
+    occlusion.emplace(options.visibility, *kernels, window.width(), window.height());
+  }
+}
 
 void FilterCore::check(const Frame& frame) const {
   if (frame.window() == window && frame.depth.window() == window) return;

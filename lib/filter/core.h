@@ -5,9 +5,11 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "filter/filter.h"
 #include "importance/change.h"
+#include "scatter/occlusion.h"
 #include "scatter/scatter.h"
 
 namespace pullfocus {
@@ -32,6 +34,9 @@ struct FilterCore {
   // State window the content of a frame can reach.
   Window reached(const FrameFindings& findings) const noexcept;
 
+  // Null if nothing hides anything.
+  const Occlusion* hidden() const noexcept { return occlusion ? &*occlusion : nullptr; }
+
   static void report(const FrameFindings& findings, Stats& stats) noexcept;
 
   Window window;
@@ -41,7 +46,8 @@ struct FilterCore {
   Sanitiser sanitiser;
   tbb::task_arena arena;
   Scatter scatter;
-  Layers layers;  // a single one without visibility
+  Layers layers;                       // a single one without visibility
+  std::optional<Occlusion> occlusion;  // with VisibilityOptions::Kind::bitmap
 };
 
 // Same values, stored as floats.

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "scatter/band.h"
+#include "scatter/depth_key.h"
 
 namespace pullfocus {
 
@@ -19,13 +20,14 @@ float diameter(const Frame& frame, const CocFunction& coc, int x, int y) {
 bool is_flipped(int x, int size) noexcept { return (x >= 0 ? x / size : (size - 1 - x) / size) % 2 != 0; }
 
 // Weight that `kernel` at (sx, sy) gives the target, mirror images included (each with the kernel as it is: see
-// scatter/edges.h). Sizes of the window.
-std::int64_t weight_at(const Kernel& kernel, int sx, int sy, int tx, int ty, int width, int height) {
+// scatter/edges.h). Nothing at offsets -hidden .. hidden - 1 both ways. Sizes of the window.
+std::int64_t weight_at(const Kernel& kernel, int sx, int sy, int tx, int ty, int width, int height, int hidden) {
   std::int64_t weight = 0;
   for (int y = sy - kernel.radius_y; y <= sy + kernel.radius_y; ++y) {
     if (mirror(y, height) != ty) continue;
     for (int x = sx - kernel.radius_x; x <= sx + kernel.radius_x; ++x) {
       if (mirror(x, width) != tx) continue;
+      if (x - sx >= -hidden && x - sx < hidden && y - sy >= -hidden && y - sy < hidden) continue;
       weight += kernel.weight(is_flipped(x, width) ? sx - x : x - sx, is_flipped(y, height) ? sy - y : y - sy);
     }
   }
@@ -35,7 +37,7 @@ std::int64_t weight_at(const Kernel& kernel, int sx, int sy, int tx, int ty, int
 }  // namespace
 
 Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, int x, int y,
-                    std::size_t most) {
+                    std::size_t most, const VisibilityOptions& visibility) {
   const Window& w = frame.window();
   Explanation story;
   story.depth = frame.depth.at(x, y);
@@ -44,13 +46,18 @@ Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTabl
   story.index = kernels.coc().index(story.coc_px);
   story.diameter_px = kernels.coc().diameter(story.index);
 
+  const std::uint16_t key = depth_key(coc.kind, story.depth);
   double total = 0;
   for (int sy = w.y0; sy < w.y1; ++sy) {
     for (int sx = w.x0; sx < w.x1; ++sx) {
       const float c = diameter(frame, coc, sx, sy);
       const Kernel& kernel = kernels.kernel(kernels.coc().index(c));
       if (std::abs(sx - x) > kernel.radius_x || std::abs(sy - y) > kernel.radius_y) continue;
-      const std::int64_t weight = weight_at(kernel, sx - w.x0, sy - w.y0, x - w.x0, y - w.y0, w.width(), w.height());
+      const bool hidden =
+          visibility.kind == VisibilityOptions::Kind::bitmap && depth_key(coc.kind, frame.depth.at(sx, sy)) > key &&
+          std::fabs(kernels.coc().diameter(kernels.coc().index(c)) - story.diameter_px) > visibility.cutoff_px;
+      const std::int64_t weight = weight_at(kernel, sx - w.x0, sy - w.y0, x - w.x0, y - w.y0, w.width(), w.height(),
+                                            hidden ? visibility.bitmap_size / 2 : 0);
       if (weight == 0) continue;
       const double share = static_cast<double>(weight) / static_cast<double>(kWeightUnit);
       total += share;

@@ -7,6 +7,7 @@
 #include "camera/thin_lens.h"
 #include "image/frame.h"
 #include "scatter/kernel_table.h"
+#include "scatter/visibility.h"
 
 namespace pullfocus {
 
@@ -32,8 +33,8 @@ struct Explanation {
 };
 
 // Pixel (x, y) in window coordinates, inside frame.window(); the `most` largest contributors. Exact: the same
-// weights, mirrored at the same borders, as the filter's.
+// weights, mirrored at the same borders, and with bitmaps hidden at the same offsets, as the filter's.
 Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, int x, int y,
-                    std::size_t most);
+                    std::size_t most, const VisibilityOptions& visibility = {});
 
 }  // namespace pullfocus

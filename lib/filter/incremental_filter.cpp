@@ -18,6 +18,7 @@ IncrementalFilter::IncrementalFilter(const Window& state_window, const FilterOpt
 
 void IncrementalFilter::reset() {
   state_.reset(core_.window, SampleType::half);
+  if (core_.occlusion) core_.occlusion->reset();
   pending_.assign(core_.window.pixels(), 0);
   sums_.reset(core_.window.width(), core_.window.height(), core_.layers.count(), kOpaqueLanes);
   uncommitted_ = static_cast<std::int64_t>(core_.window.pixels());
@@ -63,11 +64,13 @@ const Stats& IncrementalFilter::filter(const Frame& frame, const CocFunction& co
   stats_ = {};
   core_.arena.execute([&] {
     frame_ = &in_state_type(frame);
+    depth_kind_ = coc.kind;
     ++round_;
     prepare_result(core_.options.output_type.value_or(frame.colour.type()));
 
     const Stopwatch detect;
-    Changes changes = find_changes(*frame_, coc, core_.kernels->coc(), core_.sanitiser, state_, thresholds(), pending_);
+    Changes changes = find_changes(*frame_, coc, core_.kernels->coc(), core_.sanitiser, state_, thresholds(), pending_,
+                                   core_.hidden());
     if (!changes.opaque && lanes() == kOpaqueLanes) sums_.widen();
     const std::vector<TileWork> selected = select(changes);
     FilterCore::report(changes.findings, stats_);

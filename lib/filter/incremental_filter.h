@@ -6,6 +6,8 @@
 // scatter        committed state, frame         destination bands: old contributions out, new ones in
 // integrate      bands                          accumulators, dirty spans
 // commit         frame                          committed state
+// With bitmaps, scatter puts back what the old state hid, and pixels that begin or cease to hide others are corrected
+// before the commit; what the new state hides is taken out after it.
 // resolve        accumulators, dirty spans      result
 //
 // The invariant, at every slice border: the accumulators equal what scattering the committed state from
@@ -40,7 +42,8 @@ class IncrementalFilter final : public Filter {
   std::vector<Accumulator> accumulators(int layer = 0) const { return sums_.plane(layer); }
   const Layers& layers() const noexcept { return core_.layers; }
   int lanes() const noexcept { return sums_.lanes(); }
-  std::size_t sum_bytes() const noexcept { return sums_.bytes(); }  // of memory
+  std::size_t sum_bytes() const noexcept { return sums_.bytes(); }        // of memory
+  const Occlusion* occlusion() const noexcept { return core_.hidden(); }  // null without bitmaps
 
  private:
   class Call;
@@ -55,7 +58,8 @@ class IncrementalFilter final : public Filter {
   std::vector<TileWork> take_over(Call& call, const std::vector<TileWork>& selected);
   std::vector<TileWork> take_over_in_slices(Call& call, const std::vector<TileWork>& selected);
   std::int64_t pixels_to_resolve() const noexcept;
-  bool rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept;
+  bool rebuild_is_cheaper(const EdgeCount& edges, const std::vector<TileWork>& selected) const noexcept;
+  void add(const std::vector<LayerWork>& work, const Sources& sources);
   void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
   void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges);
   void make_room(const LayerWork& work);
@@ -69,12 +73,13 @@ class IncrementalFilter final : public Filter {
   LayerSums sums_;
   WaitingTimes waiting_;
   Pace pace_;
-  std::uint32_t round_ = 0;       // number of calls
-  const Frame* frame_ = nullptr;  // of the last call, in the state's type
-  Window reached_;                // by that frame
-  std::vector<TileWork> left_;    // what it left over
-  std::int64_t uncommitted_ = 0;  // pixels never committed
-  std::int64_t edges_ = 0;        // of the committed state
+  std::uint32_t round_ = 0;                   // number of calls
+  const Frame* frame_ = nullptr;              // of the last call, in the state's type
+  DepthKind depth_kind_ = DepthKind::planar;  // of that frame
+  Window reached_;                            // by that frame
+  std::vector<TileWork> left_;                // what it left over
+  std::int64_t uncommitted_ = 0;              // pixels never committed
+  std::int64_t edges_ = 0;                    // of the committed state
   DirtySpans dirty_;
   Frame widened_;
   ColourImage result_;

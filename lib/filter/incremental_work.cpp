@@ -4,13 +4,14 @@
 #include "filter/call.h"
 #include "filter/incremental_filter.h"
 #include "resolve/resolve.h"
+#include "scatter/occlusion_flips.h"
 
 namespace pullfocus {
 
 std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector<TileWork>& selected) {
   if (selected.empty()) return {};
   const EdgeCount edges = count_edges(selected, pending());
-  const bool cheaper = rebuild_is_cheaper(edges, count_pixels(selected));
+  const bool cheaper = rebuild_is_cheaper(edges, selected);
   if (call.can_be_stopped()) {
     // A rebuild cannot be stopped: it must be sure to end in time.
     const double rebuild_ms =
@@ -64,10 +65,34 @@ std::int64_t IncrementalFilter::pixels_to_resolve() const noexcept {
 
 // Edges decide. Changed pixels lie scattered and convert two colours, hence a quarter more an edge than a
 // rebuild.
-bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges, std::int64_t updated) const noexcept {
+//
+// A kernel row whose bitmap is looked at costs as much as so many edges, whether anything is hidden there or not. An
+// update looks at it before and after the change, at sources that lie scattered, and at others around each pixel whose
+// depth has changed: taken as five times the cost in all.
+bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges,
+                                           const std::vector<TileWork>& selected) const noexcept {
+  constexpr std::int64_t kRowEdges = 3;
+  const std::int64_t updated = count_pixels(selected);
   const std::int64_t edges_after = edges_ + edges.committed;
   const auto pixels = static_cast<std::int64_t>(core_.window.pixels());
-  return updated > 0 && 5 * edges.written + 32 * updated > 4 * edges_after + 32 * pixels;
+  std::int64_t hidden = 0, hidden_after = 0;
+  if (core_.occlusion) {
+    hidden = core_.occlusion->need(selected).rows * kRowEdges;
+    hidden_after = core_.occlusion->need().rows * kRowEdges;
+  }
+  return updated > 0 && 5 * edges.written + 20 * hidden + 32 * updated > 4 * (edges_after + hidden_after) + 32 * pixels;
+}
+
+void IncrementalFilter::add(const std::vector<LayerWork>& work, const Sources& sources) {
+  for (const LayerWork& layer : work) make_room(layer);
+  core_.scatter.run(work, sources, lanes(), core_.threads, [&](int y, std::span<const LayerRow> rows) {
+    for (const LayerRow& row : rows) {
+      for (const ColumnSpan& span : row.spans) {
+        sums_.add(row.layer, y, span, row.values + static_cast<std::ptrdiff_t>(span.x0) * lanes());
+        dirty_.mark(y, span.x0, span.x1);
+      }
+    }
+  });
 }
 
 // For all that the layer's tiles may reach; folded light stays within that.
@@ -82,18 +107,22 @@ void IncrementalFilter::make_room(const LayerWork& work) {
 }
 
 void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges) {
-  const std::vector<LayerWork> work = by_layer(selected, core_.layers, state_, pending_.data());
-  for (const LayerWork& layer : work) make_room(layer);
-  core_.scatter.run(work, {&state_, frame_, pending_.data(), &core_.sanitiser}, lanes(), core_.threads,
-                    [&](int y, std::span<const LayerRow> rows) {
-                      for (const LayerRow& row : rows) {
-                        for (const ColumnSpan& span : row.spans) {
-                          sums_.add(row.layer, y, span, row.values + static_cast<std::ptrdiff_t>(span.x0) * lanes());
-                          dirty_.mark(y, span.x0, span.x1);
-                        }
-                      }
-                    });
+  const Sources change{&state_, frame_, pending_.data(), &core_.sanitiser, core_.hidden()};
+  add(by_layer(selected, core_.layers, state_, pending_.data()), change);
+  if (core_.occlusion) {
+    correct_flips(selected, change, depth_kind_, *core_.kernels, lanes(), [&](int y, int x, const Accumulator* values) {
+      sums_.add(0, y, {x, x + 1}, values);
+      dirty_.mark(y, x, x + 1);
+    });
+  }
   commit(*frame_, core_.sanitiser, pending_, selected, state_);
+  if (core_.occlusion) {
+    core_.occlusion->take(*frame_, depth_kind_, state_, selected);
+    Sources hidden{&state_};
+    hidden.occlusion = core_.hidden();
+    hidden.is_plain = false;
+    add(by_layer(core_.occlusion->needing(selected), core_.layers, state_, nullptr), hidden);
+  }
   edges_ += edges.committed;
   stats_.edges += edges.written;
   stats_.updated += count_pixels(selected);
@@ -104,10 +133,13 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Edge
 void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges) {
   edges_ += edges.committed;
   commit(*frame_, core_.sanitiser, pending_, selected, state_);
+  if (core_.occlusion) core_.occlusion->take(*frame_, depth_kind_, state_, selected);
   sums_.clear();
+  Sources sources{&state_};
+  sources.occlusion = core_.hidden();
   const std::vector<LayerWork> work = by_layer(whole_state(state_), core_.layers, state_, nullptr);
   for (const LayerWork& layer : work) make_room(layer);
-  core_.scatter.run(work, {&state_}, lanes(), core_.threads, [&](int y, std::span<const LayerRow> rows) {
+  core_.scatter.run(work, sources, lanes(), core_.threads, [&](int y, std::span<const LayerRow> rows) {
     for (const LayerRow& row : rows) {
       for (const ColumnSpan& span : row.spans) {
         sums_.add(row.layer, y, span, row.values + static_cast<std::ptrdiff_t>(span.x0) * lanes());

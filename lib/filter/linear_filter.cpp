@@ -22,6 +22,7 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
     bool opaque = true;
     const FrameFindings findings =
         commit_all(frame, coc, core_.kernels->coc(), core_.sanitiser, state_, tiles_, opaque);
+    if (core_.occlusion) core_.occlusion->take(frame, coc.kind, state_, tiles_);
     FilterCore::report(findings, stats_);
     result_window_ = core_.reached(findings);
     stats_.edges = committed_edges(state_, *core_.kernels);
@@ -29,8 +30,10 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
 
     const Stopwatch scatter;
     const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
+    Sources sources{&state_};
+    sources.occlusion = core_.hidden();
     core_.scatter.run(
-        by_layer(tiles_, core_.layers, state_, nullptr), {&state_}, lanes, core_.threads,
+        by_layer(tiles_, core_.layers, state_, nullptr), sources, lanes, core_.threads,
         [&](int y, std::span<const LayerRow> rows) { resolve_rows(rows, lanes, y, state_.colour, result_); });
     stats_.scatter_ms = scatter.ms();
   });

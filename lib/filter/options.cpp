@@ -9,7 +9,6 @@
 
 #include "filter/stats.h"
 #include "image/error.h"
-#include "scatter/layers.h"
 
 namespace pullfocus {
 
@@ -77,40 +76,10 @@ Budget Budget::parse(std::string_view text) {
   return budget;
 }
 
-Visibility Visibility::parse(std::string_view text) {
-  Visibility visibility;
-  if (text == "auto" || text == "layers") return visibility;
-  if (text == "none") {
-    visibility.kind = Kind::none;
-    return visibility;
-  }
-  constexpr std::string_view prefix = "layers:";
-  if (text.starts_with(prefix)) {
-    visibility.borders.clear();
-    const char* at = text.data() + prefix.size();
-    const char* const end = text.data() + text.size();
-    while (true) {
-      const auto parsed = std::from_chars(at, end, visibility.borders.emplace_back());
-      if (parsed.ec != std::errc{}) break;
-      at = parsed.ptr;
-      if (at == end) {
-        validate_borders(visibility.borders);
-        return visibility;
-      }
-      if (*at++ != ',') break;
-    }
-  }
-  throw Error(
-      ErrorCode::usage,
-      fmt::format("--visibility '{}' is not known: use auto, none, layers, or layers:BORDERS with CoC diameters in "
-                  "pixels, such as layers:-2,2",
-                  text));
-}
-
 void validate(const FilterOptions& options) {
+  validate(options.visibility);
   validate(options.importance);
   validate(options.thresholds);
-  if (options.visibility.kind == Visibility::Kind::layers) validate_borders(options.visibility.borders);
   validate(ChangeThresholds{0, 0, options.error_bound});
   if (options.threads < 0 || options.threads > 1024) {
     throw Error(ErrorCode::usage, "--threads must lie between 1 and 1024, or be 0 for all processors");

@@ -10,6 +10,7 @@
 #include "image/sample.h"
 #include "importance/importance.h"
 #include "scatter/kernel_table.h"
+#include "scatter/visibility.h"
 
 namespace pullfocus {
 
@@ -30,26 +31,13 @@ struct Budget {
   static Budget parse(std::string_view text);
 };
 
-// How sources that lie before and behind one another combine.
-struct Visibility {
-  enum class Kind {
-    none,   // plain scatter: everything mixes by weight (Potmesil and Chakravarty 1981)
-    layers  // sources of layers[i] lie before those of layers[i + 1]; see resolve/resolve.h
-  };
-  Kind kind = Kind::layers;
-  std::vector<double> borders{-2, 2};  // of layers: signed CoC diameters in pixels, ascending, at most 15
-
-  // "auto" and "layers" (the default borders), "none", or "layers:-8,-2,2". Throws Error(usage) naming --visibility.
-  static Visibility parse(std::string_view text);
-};
-
 // Milliseconds since any fixed time.
 using Clock = std::function<double()>;
 
 struct FilterOptions {
   KernelOptions kernel;
+  VisibilityOptions visibility;
   ImportanceOptions importance;
-  Visibility visibility;
   ChangeThresholds thresholds;  // IncrementalFilter only; linear takes every change
   Budget budget;                // IncrementalFilter only; the first frame is done in full, except under a time budget
   double error_bound = 0;  // IncrementalFilter only: every sample of the result is allowed to differ from the linear

@@ -55,9 +55,21 @@ Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const F
   plan.frame_bytes_per_pixel =
       colour + 4 + 4. * static_cast<double>(sample_bytes(options.output_type.value_or(frame.colour.type())));
 
+  std::optional<Occlusion> occlusion;
+  plan.tiles = static_cast<int>(tiles.size());
+  if (options.visibility.kind == VisibilityOptions::Kind::bitmap) {
+    occlusion.emplace(options.visibility, kernels, plan.window.width(), plan.window.height());
+    occlusion->take(frame, coc.kind, state, tiles);
+    plan.bitmap_tiles = static_cast<int>(occlusion->needing(tiles).size());
+    plan.bitmap_pixels = occlusion->need().pixels;
+    plan.state_bytes_per_pixel +=
+        static_cast<double>(occlusion->bytes()) / static_cast<double>(frame.window().pixels());
+  }
+
   if (next != nullptr && next->window() == frame.window() && next->colour.type() == frame.colour.type()) {
     std::vector<std::int16_t> pending(frame.window().pixels());
-    const Changes changes = find_changes(*next, next_coc, kernels.coc(), sanitiser, state, options.thresholds, pending);
+    const Changes changes = find_changes(*next, next_coc, kernels.coc(), sanitiser, state, options.thresholds, pending,
+                                         occlusion ? &*occlusion : nullptr);
     plan.changed_share = static_cast<double>(changes.pixels) / static_cast<double>(frame.window().pixels());
     plan.next_edges = count_edges(changes.tiles, {*next, state, pending, kernels, sanitiser, state.colour}).written;
   }

@@ -21,6 +21,9 @@ struct Plan {
   std::int64_t clamped_coc = 0;   // pixels beyond the largest CoC
   std::int64_t linear_edges = 0;  // run edges of a linear frame
 
+  int tiles = 0, bitmap_tiles = 0;  // of 64 x 16 pixels; those in which something may be hidden (with bitmaps)
+  std::int64_t bitmap_pixels = 0;   // pixels whose bitmap is looked at
+
   double state_bytes_per_pixel = 0;  // the filter's own: sums, committed state, masks
   double frame_bytes_per_pixel = 0;  // input frame and result
 

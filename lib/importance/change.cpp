@@ -43,12 +43,16 @@ template <SampleType type>
 class Detector {
  public:
   Detector(const SegmentIngest<type>& ingest, const CocTable& table, const SourceState& state,
-           const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending)
+           const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending, const Frame& frame, DepthKind kind,
+           const Occlusion* occlusion)
       : ingest_(ingest),
         table_(table),
         state_(state),
         thresholds_(thresholds),
         pending_(pending),
+        frame_(frame),
+        kind_(kind),
+        occlusion_(occlusion),
         grid_(grid_of(state.colour.window())) {}
 
   // Tiles `first` .. `first + grid.columns() - 1`, which are one row of tiles. Goes by rows of pixels, not by tiles:
@@ -73,13 +77,14 @@ class Detector {
     const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
     const SegmentDifference difference = ingest_.compare(x, y, n, old, committed, index, row.findings);
     // What was committed is sane, so equal bits are equal sane colours.
-    if ((difference.index | difference.colour) == 0) return 0;
+    const std::uint64_t key = occlusion_ == nullptr ? 0 : changed_keys(x, y, n);
+    if ((difference.index | difference.colour | key) == 0) return 0;
 
     Pixel<type> pixels[kTileWidth];
     ingest_.sanitised(x, y, n, pixels, row.findings);
-    std::uint64_t changed = difference.index;
+    std::uint64_t changed = difference.index | key;
     for_each_pixel(difference.colour, [&](int i) { changed |= std::uint64_t{!(pixels[i] == old[i])} << i; });
-    if (thresholds_.any()) changed = beyond_thresholds(changed, pixels, old, index, committed);
+    if (thresholds_.any()) changed = beyond_thresholds(changed, key, pixels, old, index, committed);
     for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
     if (changed != 0) {
       std::copy(index, index + n, &pending_[at(grid_, x, y)]);
@@ -91,14 +96,20 @@ class Detector {
     return changed;
   }
 
-  std::uint64_t beyond_thresholds(std::uint64_t changed, const Pixel<type>* is, const Pixel<type>* was,
-                                  const std::int16_t* index, const std::int16_t* committed) const {
+  std::uint64_t changed_keys(int x, int y, int n) const noexcept {
+    return occlusion_->changed_keys(kind_, frame_.depth.row(frame_.window().y0 + y) + x, x, y, n);
+  }
+
+  std::uint64_t beyond_thresholds(std::uint64_t changed, std::uint64_t key, const Pixel<type>* is,
+                                  const Pixel<type>* was, const std::int16_t* index,
+                                  const std::int16_t* committed) const {
     std::uint64_t beyond = 0;
     for_each_pixel(changed, [&](int i) {
       const bool small = (colour_distance<type>(is[i], was[i]) <= thresholds_.rgb &&
                           alpha_distance<type>(is[i], was[i]) <= thresholds_.rgb) ||
                          channel_distance<type>(is[i], was[i]) <= thresholds_.channel;
-      const bool exempt = small && committed[i] != kNeverCommitted &&
+      const bool same_depth = (key >> i & 1) == 0 || thresholds_.coc_px > 0;
+      const bool exempt = small && same_depth && committed[i] != kNeverCommitted &&
                           coc_distance(table_, index[i], committed[i]) <= thresholds_.coc_px;
       beyond |= std::uint64_t{!exempt} << i;
     });
@@ -110,18 +121,22 @@ class Detector {
   const SourceState& state_;
   const ChangeThresholds& thresholds_;
   std::vector<std::int16_t>& pending_;
+  const Frame& frame_;
+  const DepthKind kind_;
+  const Occlusion* occlusion_;
   const TileGrid grid_;
 };
 
 }  // namespace
 
 Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
-                     const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending) {
+                     const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending,
+                     const Occlusion* occlusion) {
   const TileGrid grid = grid_of(state.colour.window());
   std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
   dispatch(frame.colour.type(), [&]<SampleType type>() {
     const SegmentIngest<type> ingest(frame, coc, table, sanitiser);
-    const Detector<type> detector(ingest, table, state, thresholds, pending);
+    const Detector<type> detector(ingest, table, state, thresholds, pending, frame, coc.kind, occlusion);
     tbb::parallel_for(0, grid.rows(),
                       [&](int r) { detector.run(r * grid.columns(), rows[static_cast<std::size_t>(r)]); });
   });

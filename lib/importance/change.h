@@ -8,6 +8,7 @@
 #include "importance/importance.h"
 #include "importance/ingest.h"
 #include "scatter/kernel_table.h"
+#include "scatter/occlusion.h"
 #include "scatter/state.h"
 #include "scatter/tile_work.h"
 
@@ -23,10 +24,13 @@ struct Changes {
 
 // Compares `frame` with `state` (same window and sample type), tile by tile. `pending` (one index per pixel,
 // row by row) receives the new indices of the tile rows that hold changed pixels, and keeps its values
-// elsewhere. Pixels whose change is within `thresholds` count as unchanged. Threads: runs in the calling task arena;
+// elsewhere. Pixels whose change is within `thresholds` count as unchanged. With `occlusion` (which goes with the
+// state; may be null) a pixel is changed too if its depth key is; that is within a threshold only if CoC has one, which
+// depth is part of. Threads: runs in the calling task arena;
 // the result does not depend on their number.
 Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
-                     const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending);
+                     const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending,
+                     const Occlusion* occlusion = nullptr);
 
 // Takes over the whole frame into `state`, without looking at what it held. Fills `max_index` with the
 // largest |index| of every tile.

@@ -8,40 +8,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/convert-inl.h"
+#include "scatter/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pullfocus {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Calls part(d, i) for vectors of tag d that cover n values, i the first value of each: the widest first.
-template <int n, int first = 0, class Part>
-HWY_INLINE void ForEachPart(Part&& part) {
-  if constexpr (first < n) {
-    constexpr auto left = static_cast<std::size_t>(n - first);
-    const hn::CappedTag<Accumulator, std::bit_floor(left)> d;
-    constexpr int step = static_cast<int>(hn::MaxLanes(d));
-    constexpr int end = first + static_cast<int>(left) / step * step;
-    for (int i = first; i < end; i += step) part(d, i);
-    ForEachPart<n, end>(part);
-  }
-}
-
-// round(plus * weight) - round(minus * weight). Products are rounded to doubles and then to integers by the default
-// mode: one value on every target.
-template <bool with_minus, class D>
-HWY_INLINE auto Contribution(D d, const double* plus, const double* minus, double weight) {
-  const auto w = hn::Set(d, weight);
-  const auto added = RoundToInt64(d, hn::Mul(hn::LoadU(d, plus), w));
-  if constexpr (!with_minus) {
-    return hn::BitCast(hn::RebindToUnsigned<D>(), added);
-  } else {
-    const auto removed = RoundToInt64(d, hn::Mul(hn::LoadU(d, minus), w));
-    return hn::BitCast(hn::RebindToUnsigned<D>(), hn::Sub(added, removed));
-  }
-}
 
 // Writes the members' change of contribution at every step of the kernel: step after step, width * lanes values, zero
 // where no member is.

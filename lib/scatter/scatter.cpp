@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scatter/emit.h"
+#include "scatter/occlusion.h"
 
 namespace pullfocus {
 
@@ -76,25 +77,51 @@ struct RowImage {
 
 // Kernels that are their own mirror images may fall on the pads, which are folded back in. For others this would turn
 // the light the wrong way round: there the sources are mirrored instead, and the pads are dropped.
-template <int lanes>
-void Scatter::write_beyond(Band& band, const EmissionRow<lanes>& row, const GroupWriters<lanes>& writers, int y,
-                           int reach, const BandImage& image) const {
+template <int lanes, typename Write>
+void Scatter::write_beyond(Band& band, const EmissionRow<lanes>& row, int y, int reach, const BandImage& image,
+                           Write&& write) const {
   Emission<lanes> images[kTileWidth];
   const int most = reach / grid_.width + 1;
   for (int k = -most; k <= most; ++k) {
     if (k == 0) continue;
     const RowImage beyond{k, grid_.width};
-    const auto write = [&](const Emission<lanes>* sources, int count) {
+    const auto write_images = [&](const Emission<lanes>* sources, int count) {
       const int n = beyond.of(sources, count, reach, images);
       if (n == 0) return;
       const int ya = std::max(image.y0, y - reach_y_.back()), yb = std::min(image.y1, y + reach_y_.back() + 1);
       const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
       band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, images[0].x - reach, images[n - 1].x + reach + 2);
-      write_sources(kernels_, writers, images, n, y, image, band);
+      write(images, n, k % 2 != 0);
     };
-    write(row.emissions, row.count);
-    write(row.removed, row.removed_count);
+    write_images(row.emissions, row.count);
+    write_images(row.removed, row.removed_count);
   }
+}
+
+// Of the committed pixels `mask` of a tile row: what they give to pixels that hide them.
+template <int lanes>
+void Scatter::write_hidden(Band& band, const Sources& sources, int x, int y, std::uint64_t mask, int reach,
+                           const BandImage& image, bool fold) const {
+  const Occlusion& occlusion = *sources.occlusion;
+  const int window = occlusion.options().bitmap_size;
+  const WriteHidden<lanes> write_one = hidden_writer<lanes>();
+  const auto write = [&](const Emission<lanes>* emissions, int count, bool mirrored) {
+    for (int i = 0; i < count; ++i) {
+      const int column = mirror(emissions[i].x, grid_.width);
+      const HiddenSource hidden{&occlusion.planes(),
+                                occlusion.planes().keys(y)[column],
+                                occlusion.near(occlusion.planes().sizes(y)[column]),
+                                window,
+                                mirrored ? 1 - window / 2 : -window / 2,
+                                sources.frame == nullptr};
+      write_one(kernels_.kernel(emissions[i].index), emissions[i], hidden, y, image, band);
+    }
+  };
+  EmissionRow<lanes> row;
+  const Sources committed{sources.state};
+  dispatch(sources.state->colour.type(), [&]<SampleType type>() { collect<lanes, type>(committed, x, y, mask, row); });
+  write(row.emissions, row.count, false);
+  if (!fold) write_beyond(band, row, y, reach, image, write);
 }
 
 template <int lanes>
@@ -125,11 +152,18 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
       band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x + part.x0 - rx, x + part.x1 + rx + 1);
       for (int i = part.y0; i < part.y1; ++i) {
         if (work.mask.rows[i] == 0 || y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
+        const std::uint64_t hidden =
+            sources.occlusion != nullptr ? work.mask.rows[i] & sources.occlusion->columns(work.tile) : 0;
+        if (hidden != 0) write_hidden<lanes>(band, sources, x, y + i, hidden, rx, image, layout.fold);
+        if (!sources.is_plain) continue;
         dispatch(sources.state->colour.type(),
                  [&]<SampleType type>() { collect<lanes, type>(sources, x, y + i, work.mask.rows[i], row); });
         write_sources(kernels_, writers, row.emissions, row.count, y + i, image, band);
         write_sources(kernels_, writers, row.removed, row.removed_count, y + i, image, band);
-        if (!layout.fold) write_beyond(band, row, writers, y + i, rx, image);
+        if (layout.fold) continue;
+        write_beyond(band, row, y + i, rx, image, [&](const Emission<lanes>* emissions, int count, bool) {
+          write_sources(kernels_, writers, emissions, count, y + i, image, band);
+        });
       }
     }
   }

@@ -19,6 +19,8 @@
 
 namespace pullfocus {
 
+class Occlusion;
+
 // What the selected pixels contribute.
 struct Sources {
   const SourceState* state = nullptr;  // committed sources
@@ -28,6 +30,12 @@ struct Sources {
   const Frame* frame = nullptr;
   const std::int16_t* pending = nullptr;
   const Sanitiser* sanitiser = nullptr;
+
+  // Null: nothing is hidden. Otherwise goes with the state: what the sources of the state gave to pixels that hide them
+  // is left out, and of a change it is put back, as if the state gave to all of them before the change. What the
+  // change's own sources are hidden from is for a run over the new state to take out, with is_plain false.
+  const Occlusion* occlusion = nullptr;
+  bool is_plain = true;  // false: take out what is hidden, but do not scatter
 
   // Signed indices whose sources count; the others are left out.
   Layers::Range range{-kMostIndex, kMostIndex};
@@ -73,9 +81,13 @@ class Scatter {
   template <int lanes>
   void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout) const;
 
+  template <int lanes, typename Write>
+  void write_beyond(Band& band, const EmissionRow<lanes>& row, int y, int reach, const BandImage& image,
+                    Write&& write) const;
+
   template <int lanes>
-  void write_beyond(Band& band, const EmissionRow<lanes>& row, const GroupWriters<lanes>& writers, int y, int reach,
-                    const BandImage& image) const;
+  void write_hidden(Band& band, const Sources& sources, int x, int y, std::uint64_t mask, int reach,
+                    const BandImage& image, bool fold) const;
 
   const KernelTable& kernels_;
   const TileGrid grid_;

@@ -39,7 +39,7 @@ class Pull {
 
 FilterOptions options_for(double coc_step, int threads) {
   FilterOptions options;
-  options.visibility.kind = Visibility::Kind::none;
+  options.visibility.kind = VisibilityOptions::Kind::none;
   options.kernel.coc_step = coc_step;
   options.output_type = SampleType::float32;
   options.threads = threads;

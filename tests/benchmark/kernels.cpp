@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     for (const float radius : radii) {
       const Frame frame = waves(width, height, radius);
       FilterOptions options;
-      options.visibility.kind = Visibility::Kind::none;
+      options.visibility.kind = VisibilityOptions::Kind::none;
       options.threads = threads;
       const auto disc = make_linear_filter(frame.window(), options);
       options.kernel.shape = shape;

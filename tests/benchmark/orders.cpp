@@ -45,7 +45,7 @@ class Measurement {
  public:
   explicit Measurement(test::MeasuredShot shot) : shot_(std::move(shot)) {
     options_.output_type = SampleType::float32;
-    options_.visibility.kind = Visibility::Kind::none;
+    options_.visibility.kind = VisibilityOptions::Kind::none;
     kernels_ = std::make_shared<const KernelTable>(options_.kernel);
     const auto linear = make_linear_filter(shot_.frames[0].window(), options_, kernels_);
     for (std::size_t i = 0; i < shot_.frames.size(); ++i) {

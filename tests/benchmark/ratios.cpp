@@ -77,7 +77,7 @@ double ratio(int runs, const std::function<void()>& a, const std::function<void(
 void measure(int width, int height, float radius, int threads, int runs) {
   const Window window{0, 0, width, height};
   FilterOptions options;
-  options.visibility.kind = Visibility::Kind::none;
+  options.visibility.kind = VisibilityOptions::Kind::none;
   options.threads = threads;
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
   const auto linear = make_linear_filter(window, options, kernels);

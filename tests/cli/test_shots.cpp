@@ -67,6 +67,22 @@ TEST(Shots, MoverIsTheSameLinearAndIncrementalForAnyThreadsAndChunks) {
   expect_one_result({"mover", data + "/pinhole_####.exr", "--focal-length 50 --fstop 2 --focus 0.8", 1, 12, "5-8"});
 }
 
+TEST(Shots, WithBitmapsTheStarIsTheSameLinearAndIncrementalForAnyThreadsAndChunks) {
+  const TempFolder shot;
+  ASSERT_EQ(run(fmt::format("render star-lateral -o '{}' --size 97x61 --frames 30-45", shot.path())).code, 0);
+  for (const int size : {16, 32, 64}) {
+    expect_one_result({"star", shot / "star-lateral.####.exr",
+                       fmt::format("--lens paper --visibility bitmap:{} --cutoff 0.5", size), 30, 45, "34-37"});
+  }
+}
+
+TEST(Shots, WithBitmapsTheMoverIsTheSameLinearAndIncrementalForAnyThreadsAndChunks) {
+  const std::string data = shared_data("cycles/mover");
+  if (data.empty()) GTEST_SKIP() << "needs ../shared/data/cycles/mover";
+  expect_one_result({"mover", data + "/pinhole_####.exr",
+                     "--focal-length 50 --fstop 2 --focus 0.8 --visibility bitmap:32", 1, 12, "5-8"});
+}
+
 TEST(Shots, AFocusPullIsTheSameLinearAndIncremental) {
   const TempFolder shot;
   ASSERT_EQ(run(fmt::format("render star-lateral -o '{}' --size 64x48 --frames 1-8", shot.path())).code, 0);

@@ -46,7 +46,7 @@ inline FilterOptions options_up_to(double max_coc_px) {
   FilterOptions options;
   options.kernel.max_coc_px = std::max(1., max_coc_px);
   options.output_type = SampleType::float32;
-  options.visibility.kind = Visibility::Kind::none;
+  options.visibility.kind = VisibilityOptions::Kind::none;
   return options;
 }
 

@@ -65,8 +65,8 @@ double worst_share(const Kernel& kernel, double diameter, double aspect) {
 TEST(Disc, WeightsAreAreaCoverageOfADiscWithin03PixelsOfTheDiameter) {
   constexpr double of_sampling = 0.02;  // 16 x 16 points against exact areas
   for (const double aspect : {1., 0.9, 2.}) {
-    for (const double d :
-         {2., 2.5, 3., 4.5, 6., 8., 11.5, 12., 13.75, 16., 19.5, 20., 24., 31.5, 32., 37.25, 39.5, 40., 63.5, 64., 101.}) {
+    for (const double d : {2.,  2.5, 3.,   4.5, 6.,    8.,   11.5, 12.,  13.75, 16., 19.5,
+                           20., 24., 31.5, 32., 37.25, 39.5, 40.,  63.5, 64.,   101.}) {
       const Kernel kernel = disc_kernel(d, aspect);
       const double adjust = d < 64 ? 0.3 : 0;
       double least = 1;

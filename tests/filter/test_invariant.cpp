@@ -32,7 +32,7 @@ FilterOptions options_for(const Case& c, unsigned seed) {
   options.output_type = SampleType::float32;
   switch (seed % 3) {
     case 0:
-      options.visibility.kind = Visibility::Kind::none;
+      options.visibility.kind = VisibilityOptions::Kind::none;
       break;
     case 1:
       break;  // near, focus, far

@@ -23,7 +23,8 @@ using test::set_colour;
 
 FilterOptions with_layers(double max_coc, std::vector<double> borders = {-2, 2}) {
   FilterOptions options = options_up_to(max_coc);
-  options.visibility = {Visibility::Kind::layers, std::move(borders)};
+  options.visibility.kind = VisibilityOptions::Kind::layers;
+  options.visibility.borders = std::move(borders);
   return options;
 }
 
@@ -59,13 +60,13 @@ TEST(LayersOf, BordersBeyondEveryDiameterGiveEmptyLayersThatHarmNothing) {
 }
 
 TEST(VisibilityText, IsReadAndWrongOnesAreNamed) {
-  EXPECT_EQ(Visibility::parse("auto").kind, Visibility::Kind::layers);
-  EXPECT_EQ(Visibility::parse("none").kind, Visibility::Kind::none);
-  EXPECT_EQ(Visibility::parse("layers").borders, (std::vector<double>{-2, 2}));
-  EXPECT_EQ(Visibility::parse("layers:-8,-2.5,0,3").borders, (std::vector<double>{-8, -2.5, 0, 3}));
+  EXPECT_EQ(parse_visibility("auto").kind, VisibilityOptions::Kind::layers);
+  EXPECT_EQ(parse_visibility("none").kind, VisibilityOptions::Kind::none);
+  EXPECT_EQ(parse_visibility("layers").borders, (std::vector<double>{-2, 2}));
+  EXPECT_EQ(parse_visibility("layers:-8,-2.5,0,3").borders, (std::vector<double>{-8, -2.5, 0, 3}));
   for (const char* text : {"", "layer", "layers:", "layers:1,", "layers:,1", "layers:2,1", "layers:1,1", "layers:nan",
                            "layers:1;2", "layers:1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16", "None"}) {
-    expect_usage_error([&] { Visibility::parse(text); }, "--visibility");
+    expect_usage_error([&] { parse_visibility(text); }, "--visibility");
   }
 }
 

@@ -172,9 +172,7 @@ TEST_P(Shapes, SingleChangesAreTakenBackWhereverTheyAndTheirMirrorImagesEnd) {
       frame.depth.at(x, y) = static_cast<float>(random() % 49) / 2 - 12;
       filter.filter(frame, test::coc_as_depth);
     }
-    ASSERT_TRUE(
-        test::invariant_holds(filter, *kernels))
-        << width << " wide";
+    ASSERT_TRUE(test::invariant_holds(filter, *kernels)) << width << " wide";
   }
 }
 

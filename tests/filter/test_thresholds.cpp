@@ -72,8 +72,7 @@ TEST(Thresholds, TheInvariantHoldsWithThem) {
       if (frame > 0) shot.step();
       const Stats& stats = filter.filter(shot.frame(), test::random_lens(shot.random(), 12));
       ASSERT_EQ(stats.changed, stats.updated + stats.left_over);
-      ASSERT_TRUE(
-          test::invariant_holds(filter, kernels));
+      ASSERT_TRUE(test::invariant_holds(filter, kernels));
     }
   }
 }
