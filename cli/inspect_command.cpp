@@ -109,8 +109,13 @@ void say_plan(const Plan& plan, const FilterOptions& options) {
   if (plan.clamped_coc > 0) {
     say("", "{} pixels are beyond --max-coc {:g} and are clamped to it", plan.clamped_coc, options.kernel.max_coc_px);
   }
-  say("plan", "visibility {}: a single layer; alpha {}", describe(options.visibility),
+  say("plan", "visibility {}; alpha {}", describe(options.visibility),
       plan.alpha ? "is filtered too" : "is 1 everywhere: not accumulated");
+  for (const Plan::Layer& layer : plan.layers) {
+    if (options.visibility.kind != VisibilityOptions::Kind::layers) break;
+    say("", "layer {:g} to {:g} px: {:.1f} % of the sources, sums in {:.0f} % of the tiles", layer.coc_first,
+        layer.coc_last, 100 * static_cast<double>(layer.pixels) / pixels, 100 * layer.reached);
+  }
   if (options.visibility.kind == VisibilityOptions::Kind::bitmap) {
     say("",
         "bitmaps: in {} of {} tiles, for {:.1f} % of the pixels; elsewhere depth and CoC are too alike to hide "

@@ -7,7 +7,7 @@
 //                KeyedValue: focus, f-number and focal length over frames
 //   importance/  what changed against the committed state, how noticeable it is, which of it a budget affords
 //   scatter/     KernelShape; kernels as run edges; sources into destination bands
-//   resolve/     sums of weighted colour divided by sums of weight
+//   resolve/     sums of weighted colour divided by sums of weight; layers laid front to back
 //   filter/      LinearFilter and IncrementalFilter behind one interface; Stats; the Plan; explain()
 //   metrics/     how far two pictures are apart: RMSE, PSNR, relative MSE, SSIM, FLIP
 //

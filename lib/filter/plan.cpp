@@ -31,6 +31,37 @@ void measure_coc(const Frame& frame, const CocFunction& coc, const CocTable& tab
   }
 }
 
+std::vector<Plan::Layer> measure_layers(const FilterOptions& options, const KernelTable& kernels,
+                                        const SourceState& state, const std::vector<TileWork>& tiles) {
+  const bool split = options.visibility.kind == VisibilityOptions::Kind::layers;
+  const Layers layers(kernels.coc(),
+                      split ? std::span<const double>(options.visibility.borders) : std::span<const double>{});
+  const Window& w = state.colour.window();
+  const Scatter scatter(kernels, w.width(), w.height());
+  const TileGrid grid{w.width(), w.height()};
+  std::vector<Plan::Layer> found;
+  for (const LayerWork& work : by_layer(tiles, layers, state, nullptr)) {
+    const auto diameter = [&](int index) { return std::copysign(kernels.coc().diameter(index), index); };
+    Plan::Layer layer{diameter(work.range.first), diameter(work.range.last), 0, 0};
+    std::vector<bool> reached(static_cast<std::size_t>(grid.count()));
+    for (const TileWork& tile : work.tiles) {
+      layer.pixels += tile.mask.count();
+      const TileMask::Bounds part = tile.mask.bounds();
+      const int rx = scatter.reach_x(tile.max_index), ry = scatter.reach_y(tile.max_index);
+      const int x0 = std::max(grid.x(tile.tile) + part.x0 - rx, 0) / kTileWidth;
+      const int x1 = std::min(grid.x(tile.tile) + part.x1 + rx, w.width()) - 1;
+      const int y1 = std::min(grid.y(tile.tile) + part.y1 + ry, w.height()) - 1;
+      for (int y = std::max(grid.y(tile.tile) + part.y0 - ry, 0) / kTileHeight; y <= y1 / kTileHeight; ++y) {
+        for (int x = x0; x <= x1 / kTileWidth; ++x) reached[static_cast<std::size_t>(y * grid.columns() + x)] = true;
+      }
+    }
+    layer.reached =
+        static_cast<double>(std::count(reached.begin(), reached.end(), true)) / static_cast<double>(grid.count());
+    found.push_back(layer);
+  }
+  return found;
+}
+
 }  // namespace
 
 Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const Frame& frame, const CocFunction& coc,
@@ -51,7 +82,10 @@ Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const F
 
   const double colour = static_cast<double>(frame.colour.pixel_bytes());
   const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
-  plan.state_bytes_per_pixel = lanes * 8. + colour + 2 + 2 + 1. / 4;  // sums, colour, index, pending index, masks
+  plan.layers = measure_layers(options, kernels, state, tiles);
+  double sums = 0;
+  for (const Plan::Layer& layer : plan.layers) sums += layer.reached * lanes * 8.;
+  plan.state_bytes_per_pixel = sums + colour + 2 + 2 + 1. / 4;  // sums, colour, index, pending index, masks
   plan.frame_bytes_per_pixel =
       colour + 4 + 4. * static_cast<double>(sample_bytes(options.output_type.value_or(frame.colour.type())));
 

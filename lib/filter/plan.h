@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "camera/thin_lens.h"
 #include "filter/options.h"
@@ -23,6 +24,13 @@ struct Plan {
 
   int tiles = 0, bitmap_tiles = 0;  // of 64 x 16 pixels; those in which something may be hidden (with bitmaps)
   std::int64_t bitmap_pixels = 0;   // pixels whose bitmap is looked at
+
+  struct Layer {
+    double coc_first = 0, coc_last = 0;  // signed table diameters of its sources may lie between these, pixels
+    std::int64_t pixels = 0;             // sources
+    double reached = 0;                  // share of the window's tiles that hold its sums
+  };
+  std::vector<Layer> layers;  // with sources, nearest first; one alone without layers
 
   double state_bytes_per_pixel = 0;  // the filter's own: sums, committed state, masks
   double frame_bytes_per_pixel = 0;  // input frame and result

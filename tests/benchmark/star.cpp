@@ -20,9 +20,10 @@ struct Times {
   double linear = 0, incremental = 0, detect = 0, scatter = 0, resolve = 0;  // ms, summed over frames
 };
 
-Times run(const std::vector<Frame>& frames, const CocFunction& coc, int threads) {
+Times run(const std::vector<Frame>& frames, const CocFunction& coc, const char* visibility, int threads) {
   FilterOptions options;
   options.threads = threads;
+  options.visibility = parse_visibility(visibility);
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
   const auto linear = make_linear_filter(frames[0].window(), options, kernels);
   const auto incremental = make_incremental_filter(frames[0].window(), options, kernels);
@@ -40,18 +41,18 @@ Times run(const std::vector<Frame>& frames, const CocFunction& coc, int threads)
   return times;
 }
 
-void measure(const std::vector<Frame>& frames, const CocFunction& coc, int threads, int runs) {
+void measure(const std::vector<Frame>& frames, const CocFunction& coc, const char* visibility, int threads, int runs) {
   std::vector<double> ratios;
   Times sum;
   for (int i = 0; i < runs; ++i) {
-    const Times times = run(frames, coc, threads);
+    const Times times = run(frames, coc, visibility, threads);
     ratios.push_back(times.linear / times.incremental);
     sum.linear += times.linear, sum.incremental += times.incremental;
     sum.detect += times.detect, sum.scatter += times.scatter, sum.resolve += times.resolve;
   }
   std::sort(ratios.begin(), ratios.end());
   const double n = runs * static_cast<double>(frames.size() - 1);
-  fmt::print("| {} | {:.1f} ({:.1f}-{:.1f}) | {:.2f} | {:.2f} | {:.2f} / {:.2f} / {:.2f} |\n", threads,
+  fmt::print("| {} | {} | {:.1f} ({:.1f}-{:.1f}) | {:.2f} | {:.2f} | {:.2f} / {:.2f} / {:.2f} |\n", visibility, threads,
              ratios[ratios.size() / 2], ratios.front(), ratios.back(), sum.linear / n, sum.incremental / n,
              sum.detect / n, sum.scatter / n, sum.resolve / n);
   std::fflush(stdout);
@@ -75,8 +76,10 @@ int main(int argc, char** argv) {
   const auto coc = coc_function(sequences::star_lens(shot), {window.width(), window.height(), 1}, DepthKind::planar);
   fmt::print("{}x{}, {} frames\n\n", window.width(), window.height(), frames.size());
   fmt::print(
-      "| threads | times faster | linear, ms | incremental, ms | detect / scatter / resolve, ms |\n"
-      "|---|---|---|---|---|\n");
-  for (const int n : threads) measure(frames, coc, n, quick ? 1 : 9);
+      "| visibility | threads | times faster | linear, ms | incremental, ms | detect / scatter / resolve, ms |\n"
+      "|---|---|---|---|---|---|\n");
+  for (const char* visibility : {"layers", "none"}) {
+    for (const int n : threads) measure(frames, coc, visibility, n, quick ? 1 : 9);
+  }
   return 0;
 }
