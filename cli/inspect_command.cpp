@@ -148,6 +148,12 @@ void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction&
   say("", "colour {:g} {:g} {:g} {:g}", read.frame.colour.get(pixel.x, pixel.y, 0),
       read.frame.colour.get(pixel.x, pixel.y, 1), read.frame.colour.get(pixel.x, pixel.y, 2),
       read.frame.colour.get(pixel.x, pixel.y, 3));
+  if (visibility.kind == VisibilityOptions::Kind::layers) {
+    for (const LayerShare& layer : e.layers) {
+      say("", "layer {:g} to {:g} px: weight {:.4f}, gives {:.2f} %", layer.coc_first, layer.coc_last, layer.weight,
+          100 * layer.share);
+    }
+  }
   say("", "{} pixels cover it, total weight {:.4f}; its own share is {:.2f} %; the largest:", e.contributors,
       e.total_weight, 100 * e.own_share);
   for (const Contributor& c : e.largest) {

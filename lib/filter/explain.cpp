@@ -6,6 +6,7 @@
 
 #include "scatter/band.h"
 #include "scatter/depth_key.h"
+#include "scatter/layers.h"
 
 namespace pullfocus {
 
@@ -34,6 +35,21 @@ std::int64_t weight_at(const Kernel& kernel, int sx, int sy, int tx, int ty, int
   return weight;
 }
 
+// Fills in the shares from the weights, as resolve_layers() does.
+void accept(std::vector<LayerShare>& layers) {
+  LayerShare* farthest = nullptr;
+  int reached = 0;
+  double free = 1;
+  for (LayerShare& layer : layers) {
+    if (layer.weight == 0) continue;
+    layer.share = std::min(layer.weight, free);
+    free -= layer.share;
+    farthest = &layer;
+    ++reached;
+  }
+  if (farthest != nullptr) farthest->share = reached == 1 ? 1 : farthest->share + free;
+}
+
 }  // namespace
 
 Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, int x, int y,
@@ -46,8 +62,16 @@ Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTabl
   story.index = kernels.coc().index(story.coc_px);
   story.diameter_px = kernels.coc().diameter(story.index);
 
+  validate(visibility);
+  const bool layered = visibility.kind == VisibilityOptions::Kind::layers;
+  const Layers layers(kernels.coc(), layered ? visibility.borders : std::vector<double>{});
+  std::vector<LayerShare> all_layers;
+  for (int l = 0; l < layers.count(); ++l) {
+    const Layers::Range range = layers.range(l);
+    all_layers.push_back({kernels.coc().signed_diameter(range.first), kernels.coc().signed_diameter(range.last)});
+  }
+
   const std::uint16_t key = depth_key(coc.kind, story.depth);
-  double total = 0;
   for (int sy = w.y0; sy < w.y1; ++sy) {
     for (int sx = w.x0; sx < w.x1; ++sx) {
       const float c = diameter(frame, coc, sx, sy);
@@ -59,18 +83,23 @@ Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTabl
       const std::int64_t weight = weight_at(kernel, sx - w.x0, sy - w.y0, x - w.x0, y - w.y0, w.width(), w.height(),
                                             hidden ? visibility.bitmap_size / 2 : 0);
       if (weight == 0) continue;
-      const double share = static_cast<double>(weight) / static_cast<double>(kWeightUnit);
-      total += share;
+      const double covered = static_cast<double>(weight) / static_cast<double>(kWeightUnit);
+      const int layer = layers.of(kernels.coc().index(c));
+      all_layers[static_cast<std::size_t>(layer)].weight += covered;
+      story.total_weight += covered;
       const float depth = frame.depth.at(sx, sy);
-      story.largest.push_back({sx, sy, share, c, depth, is_background(coc.kind, depth)});
+      story.largest.push_back({sx, sy, covered, c, layer, depth, is_background(coc.kind, depth)});
     }
   }
   story.contributors = static_cast<std::int64_t>(story.largest.size());
-  story.total_weight = total;
+  accept(all_layers);
   for (Contributor& c : story.largest) {
-    c.share /= total;
+    const LayerShare& layer = all_layers[static_cast<std::size_t>(c.layer)];
+    c.share *= layer.share / layer.weight;
     if (c.x == x && c.y == y) story.own_share = c.share;
   }
+  std::erase_if(all_layers, [](const LayerShare& layer) { return layer.weight == 0; });
+  story.layers = std::move(all_layers);
   const std::size_t kept = std::min(most, story.largest.size());
   const auto order = [&](const Contributor& a, const Contributor& b) {
     return std::tuple(-a.share, std::abs(a.y - y) + std::abs(a.x - x), a.y, a.x) <

@@ -41,8 +41,8 @@ std::vector<Plan::Layer> measure_layers(const FilterOptions& options, const Kern
   const TileGrid grid{w.width(), w.height()};
   std::vector<Plan::Layer> found;
   for (const LayerWork& work : by_layer(tiles, layers, state, nullptr)) {
-    const auto diameter = [&](int index) { return std::copysign(kernels.coc().diameter(index), index); };
-    Plan::Layer layer{diameter(work.range.first), diameter(work.range.last), 0, 0};
+    Plan::Layer layer{kernels.coc().signed_diameter(work.range.first), kernels.coc().signed_diameter(work.range.last),
+                      0, 0};
     std::vector<bool> reached(static_cast<std::size_t>(grid.count()));
     for (const TileWork& tile : work.tiles) {
       layer.pixels += tile.mask.count();

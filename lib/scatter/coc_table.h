@@ -17,12 +17,12 @@ class CocTable {
 
   // coc_step in [0, 1]; max_coc_px in [1, kMaxDiameter], the largest diameter, to which larger ones are
   // clamped; smallest_step in [1/8, 1/2] pixels, for measuring what steps cost. Throws Error(usage) naming --coc-step
-  // or
-  // --max-coc.
+  // or --max-coc.
   CocTable(double coc_step, double max_coc_px, double smallest_step = 0.5);
 
   int size() const noexcept { return static_cast<int>(diameters_.size()); }  // indices -(size-1) .. size-1
   double diameter(int index) const noexcept { return diameters_[static_cast<std::size_t>(std::abs(index))]; }
+  double signed_diameter(int index) const noexcept { return std::copysign(diameter(index), index); }
   float max_diameter() const noexcept { return max_diameter_; }
 
   // Nearest table index of a signed diameter in pixels; |c| beyond the largest, and NaN, count as the

@@ -25,7 +25,7 @@ Layers::Layers(const CocTable& coc, std::span<const double> borders) : offset_(c
   validate_borders(borders);
   ranges_.assign(borders.size() + 1, Range{1, 0});
   for (int index = -offset_; index <= offset_; ++index) {
-    const double c = std::copysign(coc.diameter(index), index);
+    const double c = coc.signed_diameter(index);
     std::size_t layer = 0;
     while (layer < borders.size() && (borders[layer] > 0 ? c > borders[layer] : c >= borders[layer])) ++layer;
     of_.push_back(static_cast<std::uint8_t>(layer));
