@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "image/error.h"
@@ -37,6 +38,20 @@ Layers::Layers(const CocTable& coc, std::span<const double> borders) : offset_(c
 
 namespace {
 
+struct Bounds {
+  int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min();
+
+  void widen(const std::int16_t* index) noexcept {
+    std::int16_t low = index[0], high = index[0];
+    for (int i = 1; i < kTileWidth; ++i) {  // simple enough for vectors
+      low = std::min(low, index[i]);
+      high = std::max(high, index[i]);
+    }
+    least = std::min<int>(least, low);
+    most = std::max<int>(most, high);
+  }
+};
+
 // One tile's part in every layer.
 void split(const TileWork& work, const TileGrid& grid, const Layers& layers, const SourceState& state,
            const std::int16_t* pending, TileWork* parts) {
@@ -45,6 +60,17 @@ void split(const TileWork& work, const TileGrid& grid, const Layers& layers, con
     if (work.mask.rows[i] == 0) continue;
     const std::size_t row = static_cast<std::size_t>(grid.y(work.tile) + i) * static_cast<std::size_t>(grid.width) +
                             static_cast<std::size_t>(grid.x(work.tile));
+    if (work.mask.rows[i] == first_pixels(kTileWidth)) {  // mostly of one layer
+      Bounds bounds;
+      bounds.widen(&state.index[row]);
+      if (pending != nullptr) bounds.widen(&pending[row]);
+      if (layers.share_one(bounds.least, bounds.most)) {
+        TileWork& part = parts[layers.of(bounds.most)];
+        part.mask.rows[i] = work.mask.rows[i];
+        part.max_index = std::max({part.max_index, std::abs(bounds.least), std::abs(bounds.most)});
+        continue;
+      }
+    }
     for_each_pixel(work.mask.rows[i], [&](int p) {
       const auto add = [&](int index) {
         if (index == kNeverCommitted) return;

@@ -1,5 +1,5 @@
-// What occlusion bitmaps cost: linear frames with them against plain ones, medians of ratios of processor time
-// of interleaved runs, one thread. Prints a Markdown table; judges nothing.
+// What visibility costs: linear frames with layers and with bitmaps against plain ones, medians of ratios of processor
+// time of interleaved runs, one thread, and memory. Prints a Markdown table; judges nothing.
 //
 //   visibility [--quick]
 #include <fmt/format.h>
@@ -56,25 +56,35 @@ void measure(const Window& window, int cards, float radius, int bitmap_size, int
   FilterOptions options;
   options.threads = 1;
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
-  const auto plain = make_linear_filter(window, options, kernels);
-  options.visibility = {VisibilityOptions::Kind::bitmap, {}, bitmap_size, 3};
-  const auto with_bitmaps = make_linear_filter(window, options, kernels);
   const Frame frame = scene(window, cards, 1);
   CocFunction coc;
   coc.inverse_focus = 0.5f;
   coc.scale = 4 * radius;  // depths 1 and infinity have radius R
-  const Plan plan = make_plan(options, *kernels, frame, coc, nullptr, coc);
-  std::vector<double> ratios;
-  for (int i = 0; i <= runs; ++i) {
-    const std::clock_t a = std::clock();
-    plain->filter(frame, coc);
-    const std::clock_t b = std::clock();
-    with_bitmaps->filter(frame, coc);
-    const double first = static_cast<double>(b - a), second = static_cast<double>(std::clock() - b);
-    if (i > 0) ratios.push_back(second / first);  // the first round warms up
+  constexpr std::size_t modes = 3;
+  const VisibilityOptions visibilities[modes] = {{VisibilityOptions::Kind::none, {}, 2, 0},
+                                                 VisibilityOptions{},
+                                                 {VisibilityOptions::Kind::bitmap, {}, bitmap_size, 3}};
+  std::unique_ptr<Filter> filters[modes];
+  Plan plans[modes];
+  for (std::size_t m = 0; m < modes; ++m) {
+    options.visibility = visibilities[m];
+    filters[m] = make_linear_filter(window, options, kernels);
+    plans[m] = make_plan(options, *kernels, frame, coc, nullptr, coc);
   }
-  fmt::print("| {} | {:g} | {} | {:.1f} % | {:.2f} |\n", cards, radius, bitmap_size,
-             100. * static_cast<double>(plan.bitmap_pixels) / static_cast<double>(window.pixels()), median(ratios));
+  std::vector<double> ratios[modes];
+  for (int i = 0; i <= runs; ++i) {
+    double times[modes];
+    for (std::size_t m = 0; m < modes; ++m) {
+      const std::clock_t start = std::clock();
+      filters[m]->filter(frame, coc);
+      times[m] = static_cast<double>(std::clock() - start);
+      if (i > 0) ratios[m].push_back(times[m] / times[0]);  // the first round warms up
+    }
+  }
+  const auto bytes = [&](std::size_t m) { return plans[m].state_bytes_per_pixel; };
+  fmt::print("| {} | {:g} | {} | {:.1f} % | {:.2f} | {:.2f} | {:.0f} | {:.0f} | {:.0f} |\n", cards, radius, bitmap_size,
+             100. * static_cast<double>(plans[2].bitmap_pixels) / static_cast<double>(window.pixels()),
+             median(ratios[1]), median(ratios[2]), bytes(0), bytes(1), bytes(2));
   std::fflush(stdout);
 }
 
@@ -84,7 +94,10 @@ int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
   const Window window = quick ? Window{0, 0, 320, 180} : Window{0, 0, 1920, 1080};
   fmt::print("{}x{}, half RGB, one thread, radii up to R, K = 3 px\n\n", window.width(), window.height());
-  fmt::print("| cards | R | L | pixels with bitmaps | with / without |\n|---|---|---|---|---|\n");
+  fmt::print(
+      "| cards | R | L | pixels with bitmaps | time, layers / none | bitmaps / none | bytes a pixel, none | layers | "
+      "bitmaps "
+      "|\n|---|---|---|---|---|---|---|---|---|\n");
   for (const int cards : {0, 5, 25}) {
     for (const float radius : {5.f, 10.f, 16.f}) measure(window, cards, radius, 32, quick ? 1 : 15);
   }
