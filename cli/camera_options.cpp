@@ -37,6 +37,10 @@ void add_camera_options(CLI::App& app, CameraArguments& a) {
       ->group(group);
   app.add_option("--sensor-fit", a.sensor_fit, "horizontal, vertical or auto")->group(group)->capture_default_str();
   app.add_option("--unit", a.unit, "metres per scene unit")->group(group)->capture_default_str();
+  app.add_option("--near-scale", a.near_scale, "multiplier of the CoC in front of focus; 1: as the lens does, 0: sharp")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--far-scale", a.far_scale, "multiplier of the CoC behind focus")->group(group)->capture_default_str();
   app.add_option("--depth-kind", a.depth_kind, "planar: distance along the axis; coc: signed CoC diameter in pixels")
       ->group(group)
       ->capture_default_str();
@@ -67,6 +71,8 @@ std::optional<KeyedValue> setting(const std::optional<std::string>& text, const 
 
 Camera::Camera(const CameraArguments& a) : sensor_width_(a.sensor_width), unit_(a.unit) {
   depth_kind_ = parse_depth_kind(a.depth_kind);
+  artistic_ = {static_cast<float>(a.near_scale), static_cast<float>(a.far_scale)};
+  validate(artistic_);
   model_ = parse_lens_model(a.lens);
   fit_ = parse_sensor_fit(a.sensor_fit);
   if (!(unit_ > 0 && std::isfinite(unit_))) throw Error(ErrorCode::usage, "--unit must be greater than 0");
@@ -149,16 +155,18 @@ CameraSource Camera::lens(int frame, const exr::FileInfo& file) const {
 }
 
 CocFunction Camera::coc(int frame, const exr::FileInfo& file) const {
-  if (depth_kind_ == DepthKind::coc) return coc_function({}, raster_of(file), depth_kind_);
-  return coc_function(lens(frame, file).lens, raster_of(file), depth_kind_);
+  if (depth_kind_ == DepthKind::coc) return coc_function({}, raster_of(file), depth_kind_, artistic_);
+  return coc_function(lens(frame, file).lens, raster_of(file), depth_kind_, artistic_);
 }
 
 std::string Camera::describe(int frame, const exr::FileInfo& file) const {
-  if (depth_kind_ == DepthKind::coc) return "depth_kind=coc";
+  const std::string artistic = fmt::format("near_scale={} far_scale={}", artistic_.in_front, artistic_.behind);
+  if (depth_kind_ == DepthKind::coc) return "depth_kind=coc " + artistic;
   const ThinLens l = lens(frame, file).lens;
-  return fmt::format("depth_kind={} focal_length_mm={} fstop={} focus={} lens={} sensor_mm={} sensor_fit={} unit_m={}",
-                     name(depth_kind_), l.focal_length_mm, l.f_number, l.focus_distance, name(l.model), l.sensor_mm,
-                     name(l.fit), l.metres_per_unit);
+  return fmt::format(
+      "depth_kind={} focal_length_mm={} fstop={} focus={} lens={} sensor_mm={} sensor_fit={} unit_m={} {}",
+      name(depth_kind_), l.focal_length_mm, l.f_number, l.focus_distance, name(l.model), l.sensor_mm, name(l.fit),
+      l.metres_per_unit, artistic);
 }
 
 Raster raster_of(const exr::FileInfo& file) {

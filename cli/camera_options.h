@@ -28,7 +28,7 @@ struct CameraArguments {
   std::optional<std::string> focal_length, fstop, focus, focus_at;
   std::optional<double> sensor_width;
   std::string focus_interp = "", lens = "render", sensor_fit = "horizontal", depth_kind = "planar";
-  double unit = 1;
+  double unit = 1, near_scale = 1, far_scale = 1;
 };
 void add_camera_options(CLI::App& app, CameraArguments& arguments);
 
@@ -66,6 +66,7 @@ class Camera {
   SensorFit fit_ = SensorFit::horizontal;
   DepthKind depth_kind_ = DepthKind::planar;
   double unit_ = 1;
+  CocScale artistic_;
 };
 
 Raster raster_of(const exr::FileInfo& file);

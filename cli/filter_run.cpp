@@ -96,10 +96,11 @@ void FilterRun::do_frame(const exr::SequenceFrame& from) {
     kept_.insert(from.frame);
     return;
   }
-  FrameRecord record{from.frame, shot_.state_window(), {}, 0, 0, 0};
+  FrameRecord record{from.frame, shot_.state_window(), {}, 0, 0, 0, 0};
   const Stopwatch read;
   shot_.read(from, current_, kind_ == OutputKind::result);
   record.outside = current_.outside;
+  record.mixed = current_.mixed;
   record.read_ms = read.ms();
 
   if (kind_ == OutputKind::result) {
@@ -120,6 +121,7 @@ void FilterRun::do_frame(const exr::SequenceFrame& from) {
   totals_.clamped_radiance += record.stats.clamped_radiance;
   totals_.clamped_coc += record.stats.clamped_coc;
   outside_ += record.outside;
+  mixed_ += record.mixed;
 }
 
 void FilterRun::check_strictly(const FrameRecord& r) const {
@@ -140,9 +142,9 @@ Imf::Header FilterRun::header(const exr::SequenceFrame& from, const Window& data
     header.insert(attribute, Imf::StringAttribute(text));
   };
   say("pullfocus.version", kVersion);
-  say("pullfocus.method",
-      fmt::format("{} kernel=\"{}\" visibility=\"{}\" coc_step={} max_coc={}", method_, describe(options_.kernel.shape),
-                  describe(options_.visibility), options_.kernel.coc_step, options_.kernel.max_coc_px));
+  say("pullfocus.method", fmt::format("{} kernel=\"{}\" visibility=\"{}\" coc_step={} max_coc={}{}", method_,
+                                      describe(options_.kernel.shape), describe(options_.visibility),
+                                      options_.kernel.coc_step, options_.kernel.max_coc_px, shot_.describe(current_)));
   say("pullfocus.camera", shot_.camera().describe(from.frame, current_.file));
   return header;
 }
@@ -188,6 +190,7 @@ void FilterRun::say_summary() const {
                     "the picture and --overscan",
                     t.repaired_colour, t.repaired_depth, t.clamped_radiance, t.clamped_coc, outside_));
   }
+  if (mixed_ > 0) warn(fmt::format("--repair-depth: {} mixed depths over all frames were replaced", mixed_));
   if (!kept_.empty()) warn(fmt::format("frames {} were there already and were kept (--no-clobber)", list(kept_)));
   if (!failed_.empty()) warn(fmt::format("frames {} failed and were skipped", list(failed_)));
 }

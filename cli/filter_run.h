@@ -53,6 +53,7 @@ class FilterRun {
   std::set<int> failed_, kept_;  // frames
   Stats totals_;                 // of repairs
   std::size_t outside_ = 0;
+  std::int64_t mixed_ = 0;
 };
 
 }  // namespace pullfocus::cli

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "camera/depth_repair.h"
 #include "command.h"
 #include "exr/header.h"
 #include "exr/range.h"
@@ -58,6 +59,21 @@ void say_files(const Shot& shot, const ShotFrame& read) {
   say("passed on", "{}", names_of(read.selection.extra, ""));
 }
 
+void say_depth_edges(const Shot& shot, const ShotFrame& read) {
+  if (shot.repairs_depth()) {
+    say("", "{} mixed depths at edges were replaced (--repair-depth)", read.mixed);
+    return;
+  }
+  const DepthEdges edges = find_depth_edges(read.frame, shot.camera().depth_kind());
+  if (edges.look_antialiased()) {
+    say("", "looks ANTIALIASED: {} pixels, {:.0f} % of its edges, lie between two surfaces and will show as rims;",
+        edges.mixed, 100 * edges.share());
+    say("", "render depth unfiltered (closest or first sample), or repair it with --repair-depth");
+  } else if (edges.mixed + edges.sharp > 0) {
+    say("", "edges are sharp: {} of {} look mixed", edges.mixed, edges.mixed + edges.sharp);
+  }
+}
+
 void say_depth(const Shot& shot, const ShotFrame& read, const Plan& plan) {
   const bool planar = shot.camera().depth_kind() == DepthKind::planar;
   say("depth", "{} ({}), taken as {}", read.selection.depth, channel_types(read.file, read.selection.depth),
@@ -79,6 +95,7 @@ void say_depth(const Shot& shot, const ShotFrame& read, const Plan& plan) {
   } else {
     say("", "no surface anywhere: is this the depth channel?");
   }
+  say_depth_edges(shot, read);
 }
 
 void say_camera(const Shot& shot, const exr::SequenceFrame& from, const exr::FileInfo& file) {
@@ -102,12 +119,16 @@ void say_kernel(const KernelTable& kernels) {
       kernels.kernel(index).levels.size() - 1, edges, edges / disc_kernel(diameter, options.pixel_aspect).edge_count());
 }
 
-void say_plan(const Plan& plan, const FilterOptions& options) {
+void say_plan(const Plan& plan, const FilterOptions& options, const std::string& mask) {
   const double pixels = static_cast<double>(plan.window.pixels());
   say("CoC", "{:.2f} to {:.2f} px (in front < 0 < behind); table indices {} to {} of {}", plan.coc_min, plan.coc_max,
       plan.index_min, plan.index_max, plan.table_size);
   if (plan.clamped_coc > 0) {
     say("", "{} pixels are beyond --max-coc {:g} and are clamped to it", plan.clamped_coc, options.kernel.max_coc_px);
+  }
+  if (!mask.empty()) {
+    say("mask", "{}: {} pixels ({:.2f} %) are held out", mask, plan.held_out,
+        100 * static_cast<double>(plan.held_out) / pixels);
   }
   say("plan", "visibility {}; alpha {}", describe(options.visibility),
       plan.alpha ? "is filtered too" : "is 1 everywhere: not accumulated");
@@ -154,6 +175,7 @@ void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction&
           100 * layer.share);
     }
   }
+  if (e.held_out) say("", "held out by the mask: it shows its own colour, whatever covers it");
   say("", "{} pixels cover it, total weight {:.4f}; its own share is {:.2f} %; the largest:", e.contributors,
       e.total_weight, 100 * e.own_share);
   for (const Contributor& c : e.largest) {
@@ -186,7 +208,7 @@ int inspect(const Arguments& a) {
   say_depth(shot, first, plan);
   say_camera(shot, frames[0], first.file);
   say_kernel(kernels);
-  say_plan(plan, options);
+  say_plan(plan, options, first.selection.mask);
   if (!a.explain.empty()) say_explanation(shot, first, coc, kernels, options.visibility, a.explain);
   return kDone;
 }

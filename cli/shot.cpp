@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "camera/depth_repair.h"
 #include "command.h"
 #include "exr/range.h"
 #include "image/error.h"
@@ -22,6 +23,12 @@ void add_input_options(CLI::App& app, InputArguments& a) {
   app.add_option("--layer", a.layer, "colour layer, such as ViewLayer.Combined (default: found by name)")->group(group);
   app.add_option("--view", a.view, "view of a multi-view file (default: its first)")->group(group);
   app.add_option("--depth-channel", a.depth_channel, "depth channel by its full name (default: found by name)")
+      ->group(group);
+  app.add_flag("--repair-depth", a.repair_depth,
+               "snap depths that a filter mixed at edges to the surface they belong to (inspect tells whether any are)")
+      ->group(group);
+  app.add_option("--mask", a.mask, "holdout channel: where it is at least 0.5, pixels neither blur nor receive")
+      ->type_name("CHANNEL")
       ->group(group);
   app.add_option("--overscan", a.overscan, "room around the display window: auto (all data of the shot) or L,T,R,B")
       ->group(group)
@@ -41,11 +48,12 @@ exr::Sequence open(const InputArguments& input, exr::BadFrames bad_frames) {
 }  // namespace
 
 Shot::Shot(const InputArguments& input, const CameraArguments& camera, exr::BadFrames bad_frames)
-    : channels_{input.layer, input.view, input.depth_channel},
+    : channels_{input.layer, input.view, input.depth_channel, input.mask},
       sequence_((exr::parse_overscan(input.overscan), open(input, bad_frames))),
       state_window_(
           exr::state_window(sequence_.display_window, sequence_.data_union, exr::parse_overscan(input.overscan))),
-      camera_(camera) {
+      camera_(camera),
+      repair_depth_(input.repair_depth) {
   if (!sequence_.gaps.empty()) {
     warn(fmt::format("{}: frames {} are missing between the first and the last", sequence_.pattern.text(),
                      exr::format_frames(sequence_.gaps)));
@@ -81,6 +89,14 @@ void Shot::read(const exr::SequenceFrame& from, ShotFrame& out, bool with_extra)
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("frame {}: {}", from.frame, error.what()));
   }
+  out.mixed = repair_depth_ ? repair_depth(out.frame, camera_.depth_kind()) : 0;
+}
+
+std::string Shot::describe(const ShotFrame& frame) const {
+  std::string text;
+  if (!frame.selection.mask.empty()) text += fmt::format(" mask=\"{}\"", frame.selection.mask);
+  if (repair_depth_) text += fmt::format(" repair_depth=1 repaired_depths={}", frame.mixed);
+  return text;
 }
 
 // The shot's first frame, not the first one of --frames: every chunk of a shot must focus alike.

@@ -19,8 +19,9 @@ namespace pullfocus::cli {
 
 struct InputArguments {
   std::string input;
-  std::optional<std::string> frames, layer, view, depth_channel;
+  std::optional<std::string> frames, layer, view, depth_channel, mask;
   std::string overscan = "auto";
+  bool repair_depth = false;
 };
 void add_input_options(CLI::App& app, InputArguments& arguments);
 
@@ -31,6 +32,7 @@ struct ShotFrame {
   Frame frame;
   exr::ExtraChannels extra;
   std::size_t outside = 0;  // the file's pixels outside the state window
+  std::int64_t mixed = 0;   // depths that --repair-depth replaced
 };
 
 class Shot {
@@ -47,11 +49,15 @@ class Shot {
   // Reads frame number `i` of sequence().frames, reusing memory of `out`. Errors name frame and file.
   void read(const exr::SequenceFrame& from, ShotFrame& out, bool with_extra) const;
 
+  bool repairs_depth() const noexcept { return repair_depth_; }
+  std::string describe(const ShotFrame& frame) const;  // mask and repair, for the output's header; empty: neither
+
  private:
   exr::ChannelOptions channels_;
   exr::Sequence sequence_;
   Window state_window_;
   Camera camera_;
+  bool repair_depth_;
 
   double depth_at_focus_pixel(const FocusPixel& pixel) const;
 };

@@ -42,11 +42,8 @@ void StatsFile::write(const FrameRecord& r) {
   line["edges"] = s.edges;
   line["resolved"] = s.resolved;
   line["slices"] = s.slices;
-  line["repaired"] = {{"colour", s.repaired_colour},
-                      {"depth", s.repaired_depth},
-                      {"clamped", s.clamped_radiance},
-                      {"outside", r.outside},
-                      {"coc", s.clamped_coc}};
+  line["repaired"] = {{"colour", s.repaired_colour}, {"depth", s.repaired_depth}, {"clamped", s.clamped_radiance},
+                      {"outside", r.outside},        {"coc", s.clamped_coc},      {"mixed", r.mixed}};
   line["ms"] = {{"read", ms(r.read_ms)},       {"detect", ms(s.detect_ms)}, {"scatter", ms(s.scatter_ms)},
                 {"resolve", ms(s.resolve_ms)}, {"filter", ms(s.filter_ms)}, {"overshoot", ms(s.overshoot_ms)},
                 {"write", ms(r.write_ms)}};

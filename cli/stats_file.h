@@ -14,6 +14,7 @@ struct FrameRecord {
   Window window;  // state window
   Stats stats;
   std::size_t outside = 0;  // pixels of the file outside the state window
+  std::int64_t mixed = 0;   // depths that --repair-depth replaced
   double read_ms = 0, write_ms = 0;
 };
 

@@ -76,8 +76,18 @@ double pixels_per_mm(const ThinLens& lens, const Raster& raster) {
   return raster.height / lens.sensor_mm / raster.pixel_aspect;
 }
 
-CocFunction coc_function(const ThinLens& lens, const Raster& raster, DepthKind kind) {
-  if (kind == DepthKind::coc) return {kind, 1.0f, 0.0f};
+void validate(const CocScale& scale) {
+  const auto require = [](float value, const char* option) {
+    if (!(value >= 0 && value <= std::numeric_limits<float>::max()))
+      refuse(fmt::format("{} must be a finite number of at least 0, not {}", option, value));
+  };
+  require(scale.in_front, "--near-scale");
+  require(scale.behind, "--far-scale");
+}
+
+CocFunction coc_function(const ThinLens& lens, const Raster& raster, DepthKind kind, const CocScale& artistic) {
+  validate(artistic);
+  if (kind == DepthKind::coc) return {kind, 1.0f, 0.0f, artistic};
   validate(lens);
   const double aperture_mm = lens.focal_length_mm / lens.f_number;
   const double scale = aperture_mm * image_distance_mm(lens) * pixels_per_mm(lens, raster) / mm_per_unit(lens);
@@ -86,7 +96,7 @@ CocFunction coc_function(const ThinLens& lens, const Raster& raster, DepthKind k
         fmt::format("--focal-length {} mm, --fstop {}, --focus {}, --sensor-width {} mm and --unit {} together give "
                     "circles of confusion beyond all measure; one of them is wrong",
                     lens.focal_length_mm, lens.f_number, lens.focus_distance, lens.sensor_mm, lens.metres_per_unit));
-  return {kind, static_cast<float>(scale), inverse_focus(lens.focus_distance)};
+  return {kind, static_cast<float>(scale), inverse_focus(lens.focus_distance), artistic};
 }
 
 }  // namespace pullfocus

@@ -53,22 +53,38 @@ void validate(const ThinLens& lens);
 // Pixels per millimetre of sensor along a row: CoC diameters are measured horizontally.
 double pixels_per_mm(const ThinLens& lens, const Raster& raster);
 
+// Artistic multipliers of the diameter, finite and >= 0. 1 leaves every bit of it, 0 makes that side sharp.
+struct CocScale {
+  float in_front = 1, behind = 1;  // of focus
+};
+
+// Throws Error(usage) naming --near-scale or --far-scale.
+void validate(const CocScale& scale);
+
 // Signed CoC diameter in pixels of a depth. Plain IEEE float operations, so that every target gives the same
 // bits. The caller sorts out background first; depth +inf gives the diameter at infinity.
 struct CocFunction {
   DepthKind kind = DepthKind::planar;
   float scale = 0;          // pixels times scene units, finite and > 0 (planar)
   float inverse_focus = 0;  // 1/P in 1 / scene units, finite; 0 for focus at infinity
+  CocScale artistic{};      // of either kind of depth
 
   float operator()(float depth) const noexcept {
-    return kind == DepthKind::coc ? depth : scale * (inverse_focus - 1.0f / depth);
+    return scaled(kind == DepthKind::coc ? depth : scale * (inverse_focus - 1.0f / depth));
   }
   // Diameter of a background pixel (see is_background).
-  float background() const noexcept { return kind == DepthKind::coc ? 0.0f : scale * inverse_focus; }
+  float background() const noexcept { return kind == DepthKind::coc ? 0.0f : scaled(scale * inverse_focus); }
+
+ private:
+  // A factor of 0 gives 0 even for the infinite diameter of a tiny depth.
+  float scaled(float c) const noexcept {
+    const float factor = c < 0 ? artistic.in_front : artistic.behind;
+    return factor == 0 ? 0.0f : c * factor;
+  }
 };
 
 // Throws Error(usage) as validate() does, and where no float holds the result. A depth equal to the float
 // nearest P has diameter exactly 0. For DepthKind::coc neither lens nor raster is looked at.
-CocFunction coc_function(const ThinLens& lens, const Raster& raster, DepthKind kind);
+CocFunction coc_function(const ThinLens& lens, const Raster& raster, DepthKind kind, const CocScale& artistic = {});
 
 }  // namespace pullfocus

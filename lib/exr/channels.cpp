@@ -149,6 +149,23 @@ std::string pick_depth(const ChannelNames& names, const NameMap& channels, const
        fmt::format("several channels may be depth; choose one with --depth-channel: {}", list_names(candidates)));
 }
 
+std::string requested_mask(const ChannelNames& names, const NameMap& channels, const std::string& wanted) {
+  const auto in_view = channels.find(wanted);
+  if (in_view != channels.end()) return in_view->second;
+  if (std::ranges::find(names.channels, wanted) != names.channels.end()) return wanted;
+  Strings candidates;
+  for (const auto& [name, file_name] : channels) {
+    if (ends_in(name, wanted)) candidates.push_back(name);
+  }
+  if (candidates.size() == 1) return channels.at(candidates.front());
+  if (candidates.empty()) {
+    fail(ErrorCode::usage, names,
+         fmt::format("--mask {}: no such channel; there are: {}", wanted, list_names(names.channels)));
+  }
+  fail(ErrorCode::usage, names,
+       fmt::format("--mask {}: several channels end so; give one in full: {}", wanted, list_names(candidates)));
+}
+
 }  // namespace
 
 Selection select_channels(const ChannelNames& names, const ChannelOptions& options) {
@@ -157,6 +174,7 @@ Selection select_channels(const ChannelNames& names, const ChannelOptions& optio
   const NameMap channels = channels_of_view(names, selection.view);
   selection.layer = pick_layer(names, colour_layers(channels), options);
   if (!options.colour_only) selection.depth = pick_depth(names, channels, selection.layer, options);
+  if (options.mask) selection.mask = requested_mask(names, channels, *options.mask);
 
   Strings colour_names;
   for (const char* base : {"R", "G", "B", "A"}) {

@@ -17,6 +17,8 @@ struct ChannelOptions {
   std::optional<std::string> depth_channel{};
   // No depth is looked for and nothing else is carried along: for pictures that are only looked at.
   bool colour_only = false;
+  // Holdout: full channel name, with or without the view's, or its last components. Default: no mask.
+  std::optional<std::string> mask{};
 };
 
 // What a file holds. `file` is used in messages.
@@ -37,6 +39,7 @@ struct Selection {
   std::string view;                  // empty: not a multi-view file
   std::vector<NamedChannel> colour;  // R, G, B and, if has_alpha(), A
   std::string depth;                 // file's channel name; empty with colour_only
+  std::string mask{};                // file's channel name; empty: none
   std::vector<NamedChannel> extra;   // all others of the view and of no view, depth included
 
   bool has_alpha() const noexcept { return colour.size() == 4; }
@@ -46,8 +49,8 @@ struct Selection {
 // layer called Combined, rgba or beauty. Depth: the channel asked for, else `Z` of the colour layer, else
 // `Depth.Z` (or `V`) beside it, else root `Z`, else the only channel that looks like depth. `Z` beside `X`
 // and `Y` is a vector, not depth. A depth channel that is the colour layer's own A leaves the colour without
-// alpha. Throws Error(usage) where an option is wrong or would decide, Error(unreadable) where the file lacks
-// what is needed.
+// alpha. Mask: the channel asked for, which may be one of the others too. Throws Error(usage) where an option is wrong
+// or would decide, Error(unreadable) where the file lacks what is needed.
 Selection select_channels(const ChannelNames& names, const ChannelOptions& options);
 
 }  // namespace pullfocus::exr

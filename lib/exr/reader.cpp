@@ -76,16 +76,16 @@ void add_extra_targets(const FileInfo& info, const Selection& selection, const W
   }
 }
 
-void add_depth_target(const Selection& selection, const Window& common, Plane& depth,
+void add_plane_target(const std::string& channel, const Window& common, Plane& plane,
                       std::vector<ChannelTarget>& targets) {
-  targets.push_back({selection.depth, Imf::FLOAT, reinterpret_cast<std::byte*>(&depth.at(common.x0, common.y0)),
-                     sizeof(float), sizeof(float) * static_cast<std::size_t>(depth.window().width())});
+  targets.push_back({channel, Imf::FLOAT, reinterpret_cast<std::byte*>(&plane.at(common.x0, common.y0)), sizeof(float),
+                     sizeof(float) * static_cast<std::size_t>(plane.window().width())});
 }
 
 template <typename Stored, typename Convert>
-void convert_plane(const std::byte* samples, const Window& common, Plane& depth, Convert convert) {
+void convert_plane(const std::byte* samples, const Window& common, Plane& plane, Convert convert) {
   for (int y = common.y0; y < common.y1; ++y) {
-    float* values = &depth.at(common.x0, y);
+    float* values = &plane.at(common.x0, y);
     for (int x = 0; x < common.width(); ++x, samples += sizeof(Stored)) {
       Stored stored;
       std::memcpy(&stored, samples, sizeof stored);
@@ -94,18 +94,53 @@ void convert_plane(const std::byte* samples, const Window& common, Plane& depth,
   }
 }
 
-// A frame buffer takes a channel once; where depth is also carried along as it is stored, it is converted
-// from there.
-void convert_depth(const ExtraChannel& stored, const Window& common, Plane& depth) {
+void convert_stored(const ExtraChannel& stored, const Window& common, Plane& plane) {
   const std::byte* samples = stored.samples.data();
   if (stored.type == Imf::HALF) {
-    convert_plane<std::uint16_t>(samples, common, depth, imath_half_to_float);
+    convert_plane<std::uint16_t>(samples, common, plane, imath_half_to_float);
   } else if (stored.type == Imf::UINT) {
-    convert_plane<std::uint32_t>(samples, common, depth, [](auto value) { return static_cast<float>(value); });
+    convert_plane<std::uint32_t>(samples, common, plane, [](auto value) { return static_cast<float>(value); });
   } else {
-    convert_plane<float>(samples, common, depth, [](float value) { return value; });
+    convert_plane<float>(samples, common, plane, [](float value) { return value; });
   }
 }
+
+// A frame buffer takes a channel once: one that is also read as colour, or carried along as it is stored, is taken from
+// there afterwards.
+class PlaneReader {
+ public:
+  PlaneReader(const std::string& channel, const Selection& selection, const ExtraChannels* extra, Plane& plane)
+      : channel_(channel), selection_(selection), extra_(extra), plane_(plane) {}
+
+  void add_target(const Window& common, std::vector<ChannelTarget>& targets) const {
+    const bool is_read = std::ranges::find(targets, channel_, &ChannelTarget::channel) != targets.end();
+    if (!is_read) add_plane_target(channel_, common, plane_, targets);
+  }
+
+  void take(const Window& common, const Frame& frame) const {
+    const auto of_colour = std::ranges::find(selection_.colour, channel_, &NamedChannel::file_name);
+    const auto of_extra = std::ranges::find(selection_.extra, channel_, &NamedChannel::file_name);
+    if (of_colour != selection_.colour.end()) {
+      const auto c = static_cast<int>(of_colour - selection_.colour.begin());
+      for (int y = common.y0; y < common.y1; ++y) {
+        for (int x = common.x0; x < common.x1; ++x) plane_.at(x, y) = frame.colour.get(x, y, c);
+      }
+    } else if (extra_ && of_extra != selection_.extra.end()) {
+      const auto index = static_cast<std::size_t>(of_extra - selection_.extra.begin());
+      convert_stored(extra_->channels[index], common, plane_);
+    } else if (&plane_ != &frame.depth && channel_ == selection_.depth) {
+      for (int y = common.y0; y < common.y1; ++y) {
+        std::copy_n(&frame.depth.at(common.x0, y), common.width(), &plane_.at(common.x0, y));
+      }
+    }
+  }
+
+ private:
+  const std::string& channel_;
+  const Selection& selection_;
+  const ExtraChannels* extra_;
+  Plane& plane_;
+};
 
 }  // namespace
 
@@ -128,8 +163,10 @@ std::size_t FrameReader::read(const Selection& selection, const Window& state_wi
   if (!info_.complete) fail(info_.path, "is incomplete: it is still being written, or was cut short");
   const bool with_depth = !selection.depth.empty();
   if (with_depth) require_channel(info_, selection.depth);
+  if (!selection.mask.empty()) require_channel(info_, selection.mask);
   frame.colour.reset(state_window, colour_type(info_, selection));
   frame.depth.reset(state_window, std::numeric_limits<float>::infinity());
+  frame.mask.reset(selection.mask.empty() ? Window{} : state_window, 0);
   frame.has_alpha = selection.has_alpha();
   if (!frame.has_alpha) fill_alpha_with_one(frame.colour);
 
@@ -139,18 +176,16 @@ std::size_t FrameReader::read(const Selection& selection, const Window& state_wi
   if (extra) add_extra_targets(info_, selection, common, *extra, targets);
   if (common.empty()) return info_.data_window.pixels();
   add_colour_targets(selection, common, frame.colour, targets);
-  const auto kept_depth = std::ranges::find(selection.extra, selection.depth, &NamedChannel::file_name);
-  const bool converts = extra && kept_depth != selection.extra.end();
-  if (with_depth && !converts) add_depth_target(selection, common, frame.depth, targets);
+  std::vector<PlaneReader> planes;
+  if (with_depth) planes.emplace_back(selection.depth, selection, extra, frame.depth);
+  if (!selection.mask.empty()) planes.emplace_back(selection.mask, selection, extra, frame.mask);
+  for (const PlaneReader& plane : planes) plane.add_target(common, targets);
   try {
     read_pixels(*file_, targets, info_.data_window, common);
   } catch (const std::exception& error) {
     fail(info_.path, fmt::format("its pixels cannot be read: {}", plain_reason(error.what(), info_.path)));
   }
-  if (converts) {
-    const auto index = static_cast<std::size_t>(kept_depth - selection.extra.begin());
-    convert_depth(extra->channels[index], common, frame.depth);
-  }
+  for (const PlaneReader& plane : planes) plane.take(common, frame);
   return info_.data_window.pixels() - common.pixels();
 }
 

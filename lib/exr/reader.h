@@ -31,6 +31,7 @@ class FrameReader {
   //   A       1 everywhere if the selection has no alpha channel, else as stored and 0 without data
   //   depth   float, converted from half, float or uint; +infinity where the file has no data
   //           or the selection no depth
+  //   mask    as depth if the selection has one, 0 where the file has no data; else none
   // `extra` gets the other selected channels over the part of the data window inside the state window (null:
   // none). Returns the number of the file's pixels outside the state window, which are ignored.
   // Throws Error(unreadable): a selected channel is missing, or the pixels are incomplete or damaged; `frame`

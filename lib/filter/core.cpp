@@ -47,6 +47,9 @@ FilterCore::FilterCore(const Window& state_window, const FilterOptions& filter_o
 }
 
 void FilterCore::check(const Frame& frame) const {
+  if (frame.has_mask() && frame.mask.window() != window) {
+    throw Error(ErrorCode::usage, "a frame's mask does not cover the same window as its colour: give it that window");
+  }
   if (frame.window() == window && frame.depth.window() == window) return;
   const Window& w = frame.window();
   throw Error(

@@ -72,8 +72,10 @@ Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTabl
   }
 
   const std::uint16_t key = depth_key(coc.kind, story.depth);
+  story.held_out = frame.holds_out(x, y);
   for (int sy = w.y0; sy < w.y1; ++sy) {
     for (int sx = w.x0; sx < w.x1; ++sx) {
+      if (frame.holds_out(sx, sy)) continue;
       const float c = diameter(frame, coc, sx, sy);
       const Kernel& kernel = kernels.kernel(kernels.coc().index(c));
       if (std::abs(sx - x) > kernel.radius_x || std::abs(sy - y) > kernel.radius_y) continue;
@@ -100,6 +102,7 @@ Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTabl
   }
   std::erase_if(all_layers, [](const LayerShare& layer) { return layer.weight == 0; });
   story.layers = std::move(all_layers);
+  if (story.held_out) story.own_share = 1;
   const std::size_t kept = std::min(most, story.largest.size());
   const auto order = [&](const Contributor& a, const Contributor& b) {
     return std::tuple(-a.share, std::abs(a.y - y) + std::abs(a.x - x), a.y, a.x) <

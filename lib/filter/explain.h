@@ -31,6 +31,7 @@ struct LayerShare {
 struct Explanation {
   float depth = 0;          // as read
   bool background = false;  // taken as: no surface, at infinity
+  bool held_out = false;    // by the frame's mask: the pixel shows its own colour, whatever covers it
   float coc_px = 0;         // signed diameter, before quantisation
   int index = 0;            // in the table
   double diameter_px = 0;   // of the kernel used

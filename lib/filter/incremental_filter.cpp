@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "filter/call.h"
+#include "resolve/held_out.h"
 #include "resolve/resolve.h"
 
 namespace pullfocus {
@@ -44,6 +45,7 @@ const Frame& IncrementalFilter::in_state_type(const Frame& frame) {
   widen(frame.colour, widened_.colour);
   widened_.depth = frame.depth;
   widened_.has_alpha = frame.has_alpha;
+  widened_.mask = frame.mask;
   return widened_;
 }
 
@@ -173,6 +175,7 @@ void IncrementalFilter::resolve_dirty() {
         resolve_layers({layers, count}, lanes(), x, end, y, state_.colour, result_);
         x = end;
       }
+      show_held_out(state_, x0, x1, y, result_);
       resolved[static_cast<std::size_t>(y)] += x1 - x0;
     });
   });

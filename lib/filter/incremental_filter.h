@@ -62,6 +62,7 @@ class IncrementalFilter final : public Filter {
   void add(const std::vector<LayerWork>& work, const Sources& sources);
   void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
   void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges);
+  void mark_held_out(const std::vector<TileWork>& tiles);
   void make_room(const LayerWork& work);
   void resolve_dirty();
   void count_uncommitted();

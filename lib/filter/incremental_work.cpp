@@ -3,6 +3,7 @@
 
 #include "filter/call.h"
 #include "filter/incremental_filter.h"
+#include "resolve/held_out.h"
 #include "resolve/resolve.h"
 #include "scatter/occlusion_flips.h"
 
@@ -106,6 +107,19 @@ void IncrementalFilter::make_room(const LayerWork& work) {
   }
 }
 
+// Held-out pixels show their own colour, whether anything is scattered or not.
+void IncrementalFilter::mark_held_out(const std::vector<TileWork>& tiles) {
+  if (!state_.may_hold_out) return;
+  const TileGrid grid = grid_of(core_.window);
+  for (const TileWork& work : tiles) {
+    for_each_tile_pixel(grid, work, [&](int, int, int x, int y) {
+      if (!is_source(state_.index[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + x])) {
+        dirty_.mark(y, x, x + 1);
+      }
+    });
+  }
+}
+
 void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges) {
   const Sources change{&state_, frame_, pending_.data(), &core_.sanitiser, core_.hidden()};
   add(by_layer(selected, core_.layers, state_, pending_.data()), change);
@@ -123,6 +137,7 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Edge
     hidden.is_plain = false;
     add(by_layer(core_.occlusion->needing(selected), core_.layers, state_, nullptr), hidden);
   }
+  mark_held_out(selected);
   edges_ += edges.committed;
   stats_.edges += edges.written;
   stats_.updated += count_pixels(selected);
@@ -147,6 +162,7 @@ void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const Edg
     }
     resolve_rows(rows, lanes(), y, state_.colour, result_);
   });
+  for (int y = 0; y < core_.window.height(); ++y) show_held_out(state_, 0, core_.window.width(), y, result_);
   dirty_.reset(core_.window.width(), core_.window.height());
   stats_.edges += edges_;
   stats_.updated += count_pixels(selected);

@@ -23,6 +23,7 @@ void measure_coc(const Frame& frame, const CocFunction& coc, const CocTable& tab
       const bool background = is_background(coc.kind, depth);
       const float c = background ? coc.background() : coc(depth);
       plan.background += background;
+      plan.held_out += frame.holds_out(x, y);
       plan.coc_min = std::min(plan.coc_min, c);
       plan.coc_max = std::max(plan.coc_max, c);
       plan.index_min = std::min<int>(plan.index_min, table.index(c));

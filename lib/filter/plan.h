@@ -19,6 +19,7 @@ struct Plan {
   int index_min = 0, index_max = 0;
   int table_size = 0;             // kernels in the table, signs counted once
   std::int64_t background = 0;    // pixels without a surface
+  std::int64_t held_out = 0;      // pixels that the mask takes out
   std::int64_t clamped_coc = 0;   // pixels beyond the largest CoC
   std::int64_t linear_edges = 0;  // run edges of a linear frame
 

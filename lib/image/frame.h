@@ -56,7 +56,7 @@ class Plane {
   float* row(int y) noexcept { return values_.data() + row_offset(y); }  // first value at x = window().x0
   const float* row(int y) const noexcept { return values_.data() + row_offset(y); }
   float& at(int x, int y) noexcept { return row(y)[x - window_.x0]; }
-  float at(int x, int y) const noexcept { return row(y)[x - window_.x0]; }
+  const float& at(int x, int y) const noexcept { return row(y)[x - window_.x0]; }
 
  private:
   std::size_t row_offset(int y) const noexcept {
@@ -67,12 +67,20 @@ class Plane {
   std::vector<float> values_;
 };
 
+// Pixels of such a mask value neither blur nor receive: they contribute nothing and show their own colour. NaN is not
+// held out.
+inline bool is_held_out(float mask) noexcept { return mask >= 0.5f; }
+
 // What a filter reads: colour and depth over the same window (the state window). Pixels that the source had
 // no data for hold colour 0 and a depth that its kind counts as background (see camera/depth.h).
 struct Frame {
   ColourImage colour;
   Plane depth;            // as stored in the file, not yet converted
   bool has_alpha = true;  // false: the source has no alpha; colour's A is 1 everywhere
+  Plane mask{};           // holdout (see is_held_out); empty window: no pixel is held out
+
+  bool has_mask() const noexcept { return !mask.window().empty(); }
+  bool holds_out(int x, int y) const noexcept { return has_mask() && is_held_out(mask.at(x, y)); }
 
   const Window& window() const noexcept { return colour.window(); }
 };

@@ -89,8 +89,7 @@ class Detector {
     if (changed != 0) {
       std::copy(index, index + n, &pending_[at(grid_, x, y)]);
       for_each_pixel(changed, [&](int i) {
-        const int was = committed[i] == kNeverCommitted ? 0 : std::abs(static_cast<int>(committed[i]));
-        max_index = std::max({max_index, was, std::abs(static_cast<int>(index[i]))});
+        max_index = std::max({max_index, reach_index(committed[i]), reach_index(index[i])});
       });
     }
     return changed;
@@ -109,8 +108,10 @@ class Detector {
                           alpha_distance<type>(is[i], was[i]) <= thresholds_.rgb) ||
                          channel_distance<type>(is[i], was[i]) <= thresholds_.channel;
       const bool same_depth = (key >> i & 1) == 0 || thresholds_.coc_px > 0;
-      const bool exempt = small && same_depth && committed[i] != kNeverCommitted &&
-                          coc_distance(table_, index[i], committed[i]) <= thresholds_.coc_px;
+      const bool near_enough =
+          index[i] == committed[i] || (is_source(index[i]) && is_source(committed[i]) &&
+                                       coc_distance(table_, index[i], committed[i]) <= thresholds_.coc_px);
+      const bool exempt = small && same_depth && near_enough;
       beyond |= std::uint64_t{!exempt} << i;
     });
     return beyond;
@@ -152,6 +153,7 @@ Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable&
 
 FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
                          SourceState& state, std::vector<TileWork>& tiles, bool& opaque) {
+  state.may_hold_out = frame.has_mask();
   const TileGrid grid = grid_of(frame.window());
   tiles.resize(static_cast<std::size_t>(grid.count()));
   std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
@@ -164,7 +166,7 @@ FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTa
       ingest.sanitised(x, y, n, pixels, row.findings);
       int largest = 0;
       for (int i = 0; i < n; ++i) {
-        largest = std::max(largest, std::abs(static_cast<int>(index[i])));
+        largest = std::max(largest, reach_index(index[i]));
         row.opaque &= is_opaque<type>(pixels[i]);
       }
       return largest;
@@ -194,6 +196,7 @@ FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTa
 
 void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<std::int16_t>& pending,
             const std::vector<TileWork>& tiles, SourceState& state) {
+  state.may_hold_out |= frame.has_mask();
   const TileGrid grid = grid_of(state.colour.window());
   dispatch(frame.colour.type(), [&]<SampleType type>() {
     const auto commit_tile = [&](const TileWork& work) {

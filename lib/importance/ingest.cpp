@@ -1,7 +1,8 @@
 #include "importance/ingest.h"
 
 #include <algorithm>
-#include <cstdlib>
+
+#include "scatter/state.h"
 
 namespace pullfocus {
 
@@ -16,7 +17,9 @@ void FrameFindings::add(const FrameFindings& other) noexcept {
 
 template <SampleType type>
 void SegmentIngest<type>::indices(int x, int y, int n, std::int16_t* out, FrameFindings& findings) const noexcept {
-  add(x, y, n, signed_indices(to_index_, depths(x, y), n, out), out, findings);
+  const SegmentFindings segment = signed_indices(to_index_, depths(x, y), n, out);
+  if (frame_.has_mask()) hold_out(x, y, n, out);
+  add(x, y, n, segment, out, findings);
 }
 
 template <SampleType type>
@@ -25,8 +28,20 @@ SegmentDifference SegmentIngest<type>::compare(int x, int y, int n, const Pixel<
                                                FrameFindings& findings) const noexcept {
   const SegmentPair<type> pair{depths(x, y), colours(x, y), old_colours, old_index, n};
   SegmentDifference difference;
-  add(x, y, n, pullfocus::compare<type>(to_index_, pair, out, difference), out, findings);
+  const SegmentFindings segment = pullfocus::compare<type>(to_index_, pair, out, difference);
+  if (frame_.has_mask()) {
+    hold_out(x, y, n, out);
+    difference.index = 0;
+    for (int i = 0; i < n; ++i) difference.index |= std::uint64_t{out[i] != old_index[i]} << i;
+  }
+  add(x, y, n, segment, out, findings);
   return difference;
+}
+
+template <SampleType type>
+void SegmentIngest<type>::hold_out(int x, int y, int n, std::int16_t* indices) const noexcept {
+  const float* mask = frame_.mask.row(window_.y0 + y) + x;
+  for (int i = 0; i < n; ++i) indices[i] = is_held_out(mask[i]) ? kHeldOut : indices[i];
 }
 
 template <SampleType type>
@@ -68,7 +83,7 @@ void SegmentIngest<type>::content(int x, int y, int n, int largest, const std::i
   }
   if (largest <= findings.content_index) return;
   for (int i = 0; i < n; ++i) {
-    const int index = std::abs(static_cast<int>(indices[i]));
+    const int index = reach_index(indices[i]);
     if (index > findings.content_index && has_content(x + i, y)) findings.content_index = index;
   }
 }

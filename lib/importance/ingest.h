@@ -19,7 +19,7 @@ struct FrameFindings {
   std::int64_t depth = 0;        // suspect depths taken as background (see is_suspect)
   std::int64_t coc_clamped = 0;  // diameters beyond the table's largest
   Window content;                // bounds of pixels with colour, alpha or a surface
-  int content_index = 0;         // largest |index| among them
+  int content_index = 0;         // largest |index| among them, held-out ones left aside
 
   void add(const FrameFindings& other) noexcept;
 };
@@ -36,7 +36,8 @@ class SegmentIngest {
     return reinterpret_cast<const Pixel<type>*>(frame_.colour.pixel(window_.x0 + x, window_.y0 + y));
   }
 
-  // Writes the signed indices of the n pixels. Counts repairs of depth and clamps, and extends the content bounds.
+  // Writes the signed indices of the n pixels, kHeldOut where the frame's mask says so. Counts repairs of depth and
+  // clamps, and extends the content bounds.
   void indices(int x, int y, int n, std::int16_t* out, FrameFindings& findings) const noexcept;
 
   // The same, and what differs from the committed pixels. `out` has room for kTileWidth indices.
@@ -55,6 +56,7 @@ class SegmentIngest {
 
  private:
   const float* depths(int x, int y) const noexcept { return frame_.depth.row(window_.y0 + y) + x; }
+  void hold_out(int x, int y, int n, std::int16_t* indices) const noexcept;
   void add(int x, int y, int n, const SegmentFindings& segment, const std::int16_t* indices,
            FrameFindings& findings) const noexcept;
   void content(int x, int y, int n, int largest, const std::int16_t* indices, FrameFindings& findings) const noexcept;

@@ -40,10 +40,10 @@ class PixelChange {
 
   double importance(int x, int y) const noexcept {
     const std::size_t at = position(x, y);
-    const int was = pending_.state.index[at], is = pending_.index[at];
+    const std::int16_t was = pending_.state.index[at], is = pending_.index[at];
     if (was == kNeverCommitted) return 0;
     const Colour change = difference(new_colour(x, y), old_colour(x, y));
-    return options_.w_coc * coc_distance(pending_.kernels.coc(), was, is) +
+    return options_.w_coc * coc_distance(pending_.kernels.coc(), kernel_of(was), kernel_of(is)) +
            options_.w_rgb * std::sqrt(product(change, change));
   }
 
@@ -54,10 +54,10 @@ class PixelChange {
 
   double gain(int x, int y) const noexcept {
     const std::size_t at = position(x, y);
-    const int was = pending_.state.index[at], is = pending_.index[at];
+    const std::int16_t was = pending_.state.index[at], is = pending_.index[at];
     const Colour now = new_colour(x, y), then = old_colour(x, y);
     const Colour change = difference(now, then);
-    const double area_now = pending_.kernels.area(is), area_then = pending_.kernels.area(was);
+    const double area_now = pending_.kernels.area(kernel_of(is)), area_then = pending_.kernels.area(kernel_of(was));
     const double changed = product(change, change);
     const double of_colour = changed / std::sqrt(std::sqrt(std::min(area_now, area_then)));
     if (was == is) return of_colour;
@@ -66,6 +66,9 @@ class PixelChange {
         product(a, a) / area_now + product(b, b) / area_then - 2 * product(a, b) / std::max(area_now, area_then);
     return changed > 0 ? std::max(of_kernel, of_colour) : of_kernel * spread(at);
   }
+
+  // A held-out pixel shows itself, as one in focus does.
+  static int kernel_of(std::int16_t index) noexcept { return is_source(index) ? index : 0; }
 
   // In [0, 1), another for every pixel and call.
   double spread(std::size_t at) const noexcept {

@@ -15,9 +15,9 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One vector of depths to signed diameters (see CocFunction), background resolved.
+// One vector of depths to signed diameters (see CocFunction) before artistic scaling, background resolved.
 template <DepthKind kind, class D>
-HWY_INLINE hn::Vec<D> Diameters(D d, const CocFunction& coc, hn::Vec<D> depth) {
+HWY_INLINE hn::Vec<D> LensDiameters(D d, const CocFunction& coc, hn::Vec<D> depth) {
   const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
   if constexpr (kind == DepthKind::coc) {
     return hn::IfThenElseZero(hn::Lt(hn::Abs(depth), infinity), depth);
@@ -26,6 +26,15 @@ HWY_INLINE hn::Vec<D> Diameters(D d, const CocFunction& coc, hn::Vec<D> depth) {
     const auto inverse = hn::Div(hn::Set(d, 1.f), hn::IfThenElse(is_surface, depth, infinity));
     return hn::Mul(hn::Set(d, coc.scale), hn::Sub(hn::Set(d, coc.inverse_focus), inverse));
   }
+}
+
+// A background of kind coc has diameter 0, which no factor changes.
+template <DepthKind kind, class D>
+HWY_INLINE hn::Vec<D> Diameters(D d, const CocFunction& coc, hn::Vec<D> depth) {
+  const auto zero = hn::Zero(d), c = LensDiameters<kind>(d, coc, depth);
+  const auto factor =
+      hn::IfThenElse(hn::Lt(c, zero), hn::Set(d, coc.artistic.in_front), hn::Set(d, coc.artistic.behind));
+  return hn::IfThenElseZero(hn::Ne(factor, zero), hn::Mul(c, factor));
 }
 
 // `count` depths, a multiple of the vector length, of which the first n count in the findings' sum.

@@ -11,13 +11,13 @@ namespace {
 // What a tile costs beside its edges, in edges.
 constexpr double kTileEdges = 4000;
 
-std::int64_t edges_of(const KernelTable& kernels, int index) noexcept {
-  return index == kNeverCommitted ? 0 : kernels.kernel(index).edge_count();
+std::int64_t edges_of(const KernelTable& kernels, std::int16_t index) noexcept {
+  return is_source(index) ? kernels.kernel(index).edge_count() : 0;
 }
 
 // Edges that taking over one pixel writes.
 EdgeCount edges_of_pixel(const Pending& pending, std::size_t at) noexcept {
-  const int was = pending.state.index[at], is = pending.index[at];
+  const std::int16_t was = pending.state.index[at], is = pending.index[at];
   const std::int64_t before = edges_of(pending.kernels, was), after = edges_of(pending.kernels, is);
   return {was == is ? after : before + after, after - before};
 }

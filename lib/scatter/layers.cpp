@@ -73,7 +73,7 @@ void split(const TileWork& work, const TileGrid& grid, const Layers& layers, con
     }
     for_each_pixel(work.mask.rows[i], [&](int p) {
       const auto add = [&](int index) {
-        if (index == kNeverCommitted) return;
+        if (!is_source(static_cast<std::int16_t>(index))) return;
         TileWork& part = parts[layers.of(index)];
         part.mask.rows[i] |= std::uint64_t{1} << p;
         part.max_index = std::max(part.max_index, std::abs(index));

@@ -9,12 +9,6 @@
 
 namespace pullfocus {
 
-namespace {
-
-int size_of(std::int16_t index) noexcept { return index == kNeverCommitted ? 0 : std::abs(static_cast<int>(index)); }
-
-}  // namespace
-
 Occlusion::Occlusion(const VisibilityOptions& options, const KernelTable& kernels, int width, int height)
     : options_(options),
       kernels_(kernels),
@@ -64,11 +58,11 @@ void Occlusion::take_row(const Frame& frame, DepthKind kind, const SourceState& 
   const std::uint64_t mask = work.mask.rows[row];
   if (mask == first_pixels(n)) {
     std::copy_n(key, n, keys);
-    for (int i = 0; i < n; ++i) sizes[i] = static_cast<std::uint16_t>(size_of(index[i]));
+    for (int i = 0; i < n; ++i) sizes[i] = static_cast<std::uint16_t>(reach_index(index[i]));
   } else {
     for_each_pixel(mask, [&](int i) {
       keys[i] = key[i];
-      sizes[i] = static_cast<std::uint16_t>(size_of(index[i]));
+      sizes[i] = static_cast<std::uint16_t>(reach_index(index[i]));
     });
   }
 }

@@ -46,7 +46,7 @@ class Flips {
         const int x = grid_.x(work.tile) + p, y = grid_.y(work.tile) + i;
         const DepthAndSize was{planes_.keys(y)[x], planes_.sizes(y)[x]};
         const DepthAndSize is{depth_key(kind_, sources_.frame->depth.at(window.x0 + x, window.y0 + y)),
-                              std::abs(static_cast<int>(sources_.pending[position(x, y)]))};
+                              reach_index(sources_.pending[position(x, y)])};
         if (was == is || !occlusion_.may_hide(x, y, was.key, is.key, was.size, is.size)) return;
         Accumulator change[kAlphaLanes] = {};
         if (of_pixel(x, y, was, is, change)) add_(y, x, change);
@@ -90,7 +90,7 @@ class Flips {
     const TileMask* selected = masks_[static_cast<std::size_t>(py / kTileHeight * grid_.columns() + px / kTileWidth)];
     if (selected != nullptr && (selected->rows[py % kTileHeight] >> (px % kTileWidth) & 1) != 0) return false;
     const std::int16_t index = sources_.state->index[position(px, py)];
-    if (index == kNeverCommitted) return false;
+    if (!is_source(index)) return false;
     const std::int64_t weight = kernels_.kernel(index).weight(dx, dy);
     if (weight == 0) return false;
     const Window& window = sources_.state->colour.window();

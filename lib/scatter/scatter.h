@@ -38,7 +38,7 @@ struct Sources {
   bool is_plain = true;  // false: take out what is hidden, but do not scatter
 
   // Signed indices whose sources count; the others are left out.
-  Layers::Range range{-kMostIndex, kMostIndex};
+  Layers::Range range{-kMostIndex + 1, kMostIndex};
   static constexpr std::int16_t kMostIndex = std::numeric_limits<std::int16_t>::max();
   bool takes(std::int16_t index) const noexcept { return index >= range.first && index <= range.last; }
 };

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 
 namespace pullfocus {
@@ -27,7 +26,7 @@ std::vector<TileWork> whole_state(const SourceState& state) {
       for (int p = 0; p < grid.tile_width(tile); ++p) {
         if (index[p] == kNeverCommitted) continue;
         work.mask.rows[i] |= std::uint64_t{1} << p;
-        work.max_index = std::max(work.max_index, std::abs(static_cast<int>(index[p])));
+        work.max_index = std::max(work.max_index, reach_index(index[p]));
       }
     }
   });
@@ -41,7 +40,7 @@ std::int64_t committed_edges(const SourceState& state, const KernelTable& kernel
   tbb::parallel_for(0, height, [&](int y) {
     const std::int16_t* index = row_of(state, y);
     std::int64_t sum = 0;
-    for (int x = 0; x < width; ++x) sum += index[x] == kNeverCommitted ? 0 : kernels.kernel(index[x]).edge_count();
+    for (int x = 0; x < width; ++x) sum += is_source(index[x]) ? kernels.kernel(index[x]).edge_count() : 0;
     rows[static_cast<std::size_t>(y)] = sum;
   });
   return std::accumulate(rows.begin(), rows.end(), std::int64_t{0});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -14,18 +15,29 @@ namespace pullfocus {
 // Index of a pixel that has never been committed: it contributes nothing.
 inline constexpr std::int16_t kNeverCommitted = std::numeric_limits<std::int16_t>::min();
 
+// Index of a held-out pixel (Frame::mask): it contributes nothing either, and shows its own colour.
+inline constexpr std::int16_t kHeldOut = kNeverCommitted + 1;
+
+// Whether a pixel of this index contributes to anything; only then does it name a kernel.
+inline bool is_source(std::int16_t index) noexcept { return index > kHeldOut; }
+
+// |index| of a source; 0, which reaches the pixel alone, for all others.
+inline int reach_index(std::int16_t index) noexcept { return is_source(index) ? std::abs(int{index}) : 0; }
+
 // The per-pixel last state (Fearing 1996, section 4.1: I_l and C_l), sanitised.
 struct SourceState {
   ColourImage colour;
   std::vector<std::int16_t> index;  // row by row over colour.window()
+  bool may_hold_out = false;        // false: no index is kHeldOut
 
   void reset(const Window& window, SampleType type) {
     colour.reset(window, type);
     index.assign(window.pixels(), kNeverCommitted);
+    may_hold_out = false;
   }
 };
 
-// Work that covers a state's committed pixels, tile by tile.
+// Work that covers a state's committed pixels, held-out ones included, tile by tile.
 std::vector<TileWork> whole_state(const SourceState& state);
 
 // Run edges that scattering the whole state writes.

@@ -174,5 +174,27 @@ TEST(Channels, UnknownViewListsTheViews) {
   expect_failure(ErrorCode::usage, {"has no views", "--view left"}, stereo, {.view = "left"});
 }
 
+TEST(Channels, AMaskIsFoundByItsNameItsViewsNameOrItsLastComponents) {
+  const Strings channels = {"R", "G", "B", "A", "Z", "matte.hold", "fx.matte.hold2", "left.hold3"};
+  EXPECT_EQ(select(channels).mask, "");
+  EXPECT_EQ(select(channels, {.mask = "matte.hold"}).mask, "matte.hold");
+  EXPECT_EQ(select(channels, {.mask = "hold2"}).mask, "fx.matte.hold2");
+  EXPECT_EQ(select(channels, {.mask = "A"}).mask, "A");
+  const Strings views = {"right", "left"};
+  const Strings left = {"left.R", "left.G", "left.B", "left.Z"};
+  EXPECT_EQ(select(channels + left, {.view = "left", .mask = "hold3"}, views).mask, "left.hold3");
+  // It is carried along like any other channel.
+  const Strings extra = extra_names(select(channels, {.mask = "hold2"}));
+  EXPECT_NE(std::ranges::find(extra, "fx.matte.hold2"), extra.end());
+}
+
+TEST(Channels, AMaskThatIsMissingOrOneOfSeveralIsRefusedByName) {
+  const Strings channels = {"R", "G", "B", "Z", "a.hold", "b.hold"};
+  expect_failure(ErrorCode::usage, {"shot.exr", "--mask holdout", "no such channel", "a.hold"}, channels,
+                 {.mask = "holdout"});
+  expect_failure(ErrorCode::usage, {"shot.exr", "--mask hold:", "several", "a.hold, b.hold"}, channels,
+                 {.mask = "hold"});
+}
+
 }  // namespace
 }  // namespace pullfocus::exr

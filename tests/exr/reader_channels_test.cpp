@@ -100,5 +100,29 @@ TEST(Reader, MissingSelectedChannelIsNamed) {
   });
 }
 
+TEST(Reader, AMaskOfAnyTypeIsReadWhetherOrNotItIsCarriedAlongOrColourOrDepthItself) {
+  TestImage image({0, 0, 12, 9}, {-2, 1, 10, 14});
+  image.add_rgbaz().add_noise("id", Imf::UINT).add_noise("n.x", Imf::HALF).add_noise("p", Imf::FLOAT);
+  TempFolder folder;
+  test::write_scanlines(folder / "a.exr", image);
+  for (const char* name : {"id", "n.x", "p", "A", "G", "Z"}) {
+    for (const bool carried : {true, false}) {
+      Frame frame;
+      ExtraChannels extra;
+      read_frame(folder / "a.exr", {.mask = name}, image.display, frame, carried ? &extra : nullptr);
+      test::expect_frame(frame, image);
+      ASSERT_EQ(frame.mask.window(), image.display);
+      for (int y = 0; y < 9; ++y) {
+        for (int x = 0; x < 12; ++x) {
+          const float expected = image.data.contains(x, y) ? image.value(name, x, y) : 0;
+          ASSERT_EQ(frame.mask.at(x, y), expected) << name << " at " << x << "," << y << (carried ? " carried" : "");
+        }
+      }
+      read_frame(folder / "a.exr", {}, image.display, frame, nullptr);
+      ASSERT_FALSE(frame.has_mask());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pullfocus::exr

@@ -22,12 +22,14 @@ std::vector<Accumulator> exact_sums_with_bitmaps(const SourceState& state, const
                                                  int lanes) {
   const Window& w = state.colour.window();
   const int width = w.width(), height = w.height(), half = visibility.bitmap_size / 2;
-  const auto size = [&](int index) { return index == kNeverCommitted ? 0 : kernels.coc().diameter(index); };
+  const auto size = [&](int index) {
+    return !is_source(static_cast<std::int16_t>(index)) ? 0 : kernels.coc().diameter(index);
+  };
   std::vector<Accumulator> sums(w.pixels() * static_cast<std::size_t>(lanes));
   for (int py = 0; py < height; ++py) {
     for (int px = 0; px < width; ++px) {
       const std::size_t p = static_cast<std::size_t>(py) * width + px;
-      if (state.index[p] == kNeverCommitted) continue;
+      if (!is_source(state.index[p])) continue;
       const Kernel& kernel = kernels.kernel(state.index[p]);
       for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
         for (int dx = -kernel.radius_x; dx <= kernel.radius_x; ++dx) {

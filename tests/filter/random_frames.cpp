@@ -6,7 +6,7 @@
 namespace pullfocus::test {
 
 RandomShot::RandomShot(const Window& window, unsigned seed, SampleType type, bool with_alpha, bool hostile)
-    : random_(seed), with_alpha_(with_alpha), hostile_(hostile) {
+    : random_(seed), mask_random_(seed), with_alpha_(with_alpha), hostile_(hostile) {
   frame_.colour.reset(window, type);
   frame_.depth.reset(window, 1.f);
   frame_.has_alpha = with_alpha;
@@ -35,7 +35,29 @@ void RandomShot::draw_window(const Window& part) {
   }
 }
 
+void RandomShot::use_masks() {
+  masks_ = true;
+  draw_mask();
+}
+
+void RandomShot::draw_mask() {
+  constexpr float values[] = {0.f, 0.499f, 0.5f, 1.f, std::numeric_limits<float>::quiet_NaN(), -1.f, 3.f};
+  const auto random = [&](int n) { return std::uniform_int_distribution<int>(0, n - 1)(mask_random_); };
+  const Window& w = frame_.window();
+  const int kind = random(8);
+  if (kind == 0) return frame_.mask.reset({}, 0);
+  if (kind < 3) return frame_.mask.reset(w, static_cast<float>(kind - 1));
+  if (kind == 3) return;
+  if (!frame_.has_mask()) frame_.mask.reset(w, 0);
+  const int x = w.x0 + random(w.width()), y = w.y0 + random(w.height());
+  const Window part = intersect(w, {x, y, x + 1 + random(w.width()), y + 1 + random(w.height())});
+  for (int py = part.y0; py < part.y1; ++py) {
+    for (int px = part.x0; px < part.x1; ++px) frame_.mask.at(px, py) = values[random(7)];
+  }
+}
+
 const Frame& RandomShot::step() {
+  if (masks_) draw_mask();
   const Window& w = frame_.window();
   switch (below(5)) {
     case 0:

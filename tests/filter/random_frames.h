@@ -20,14 +20,19 @@ class RandomShot {
   const Frame& step();
   void use_type(SampleType type);  // for the next frames
 
+  // From now on step() draws masks too: none, all, or a random rectangle over what was.
+  void use_masks();
+
  private:
   void draw(int x, int y);
   void draw_window(const Window& part);
+  void draw_mask();
   float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
   int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
 
   std::mt19937 random_;
-  bool with_alpha_, hostile_;
+  std::mt19937 mask_random_;
+  bool with_alpha_, hostile_, masks_ = false;
   Frame frame_;
 };
 

@@ -46,7 +46,7 @@ std::vector<Accumulator> exact_sums(const SourceState& state, const KernelTable&
   for (int y = 0; y < w.height(); ++y) {
     for (int x = 0; x < w.width(); ++x) {
       const std::int16_t index = state.index[static_cast<std::size_t>(y) * w.width() + x];
-      if (index == kNeverCommitted || (layers != nullptr && layers->of(index) != layer)) continue;
+      if (!is_source(index) || (layers != nullptr && layers->of(index) != layer)) continue;
       for_each_target(kernels.kernel(index), x, y, w.width(), w.height(), [&](int tx, int ty, std::int64_t weight) {
         Accumulator* sum = &sums[(static_cast<std::size_t>(ty) * w.width() + tx) * lanes];
         for (int lane = 0; lane < lanes; ++lane) {
@@ -77,6 +77,7 @@ NaiveImage naive_scatter(const Frame& frame, const CocFunction& coc, const Kerne
   std::vector<double> weights(w.pixels());
   for (int y = 0; y < w.height(); ++y) {
     for (int x = 0; x < w.width(); ++x) {
+      if (frame.holds_out(w.x0 + x, w.y0 + y)) continue;
       const float z = frame.depth.at(w.x0 + x, w.y0 + y);
       const double c = is_background(coc.kind, z) ? coc.background() : coc(z);
       const int index = kernels.coc().index(static_cast<float>(c));
@@ -90,7 +91,12 @@ NaiveImage naive_scatter(const Frame& frame, const CocFunction& coc, const Kerne
       });
     }
   }
-  for (std::size_t i = 0; i < out.rgba.size(); ++i) out.rgba[i] /= weights[i / 4];
+  for (std::size_t i = 0; i < out.rgba.size(); ++i) {
+    const int x = w.x0 + static_cast<int>(i / 4) % w.width(), y = w.y0 + static_cast<int>(i / 4) / w.width();
+    const bool own = weights[i / 4] == 0 || frame.holds_out(x, y);
+    out.rgba[i] =
+        own ? static_cast<double>(frame.colour.get(x, y, static_cast<int>(i % 4))) : out.rgba[i] / weights[i / 4];
+  }
   return out;
 }
 

@@ -75,6 +75,7 @@ TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndS
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const auto kernels = std::make_shared<const KernelTable>(options_for(c, seed).kernel);
     RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
+    if (seed % 3 == 1) shot.use_masks();
     FilterOptions options = options_for(c, seed);
     options.budget = random_budget(shot.random());
     options.slice_edges = 1 + static_cast<std::int64_t>(shot.random()() % 3000);
@@ -111,6 +112,7 @@ TEST_P(Invariant, IncrementalEqualsLinearBitForBitWheneverNothingIsLeftOver) {
   for (unsigned seed = 11; seed <= 20; ++seed) {
     const auto kernels = std::make_shared<const KernelTable>(options_for(c, seed).kernel);
     RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
+    if (seed % 3 == 1) shot.use_masks();
     FilterOptions options = options_for(c, seed);
     options.threads = 1;
     LinearFilter linear(c.window, options, kernels);
@@ -156,6 +158,7 @@ TEST_P(OrderOf, PicksTheSamePixelsWithAnyNumberOfThreads) {
   options.budget.amount = 37;
   options.importance.order = GetParam();
   RandomShot shot(window, 5, SampleType::half, true, true);
+  shot.use_masks();
   std::vector<std::unique_ptr<IncrementalFilter>> filters;
   for (const int threads : {1, 2, 3, 4}) {
     options.threads = threads;
@@ -185,6 +188,7 @@ TEST(Invariance, AFilterThatMeetsHalfAndFloatFramesEqualsLinear) {
   options.kernel.max_radiance = 100.03f;  // not a half: must mean the same for both types
   options.output_type = SampleType::half;
   RandomShot shot(window, 3, SampleType::half, true, true);
+  shot.use_masks();
   IncrementalFilter incremental(window, options);
   LinearFilter linear(window, options);
   const CocFunction coc = test::random_lens(shot.random(), 16);

@@ -45,6 +45,8 @@ CocFunction random_coc(std::mt19937& random) {
   coc.kind = random() % 3 == 0 ? DepthKind::coc : DepthKind::planar;
   coc.scale = random() % 8 == 0 ? 3e38f : 200 * uniform(random);
   coc.inverse_focus = random() % 4 == 0 ? 0.f : uniform(random);
+  const float factors[] = {1.f, 0.f, 3 * uniform(random), 1e30f, 1e-42f};
+  if (random() % 2) coc.artistic = {factors[random() % 5], factors[random() % 5]};
   return coc;
 }
 
