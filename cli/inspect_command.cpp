@@ -175,7 +175,7 @@ void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction&
           100 * layer.share);
     }
   }
-  if (e.held_out) say("", "held out by the mask: it shows its own colour, whatever covers it");
+  if (e.held_out) say("", "held out by the mask: it shows its own colour alone and gives none; what is lost on it:");
   say("", "{} pixels cover it, total weight {:.4f}; its own share is {:.2f} %; the largest:", e.contributors,
       e.total_weight, 100 * e.own_share);
   for (const Contributor& c : e.largest) {

@@ -48,7 +48,7 @@ exr::Sequence open(const InputArguments& input, exr::BadFrames bad_frames) {
 }  // namespace
 
 Shot::Shot(const InputArguments& input, const CameraArguments& camera, exr::BadFrames bad_frames)
-    : channels_{input.layer, input.view, input.depth_channel, input.mask},
+    : channels_{.layer = input.layer, .view = input.view, .depth_channel = input.depth_channel, .mask = input.mask},
       sequence_((exr::parse_overscan(input.overscan), open(input, bad_frames))),
       state_window_(
           exr::state_window(sequence_.display_window, sequence_.data_union, exr::parse_overscan(input.overscan))),
@@ -84,12 +84,23 @@ void Shot::read(const exr::SequenceFrame& from, ShotFrame& out, bool with_extra)
     if (out.file.display_window != sequence_.display_window) {
       throw Error(ErrorCode::unreadable, fmt::format("{}: the display window changed since the run began", from.path));
     }
-    out.selection = exr::select_channels(out.file.channel_names(), channels_);
+    out.selection = select(out.file);
     out.outside = reader.read(out.selection, state_window_, out.frame, with_extra ? &out.extra : nullptr);
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("frame {}: {}", from.frame, error.what()));
   }
   out.mixed = repair_depth_ ? repair_depth(out.frame, camera_.depth_kind()) : 0;
+}
+
+// Options that fit the shot's first file are right: then it is the file that is wrong, a bad frame.
+exr::Selection Shot::select(const exr::FileInfo& file) const {
+  try {
+    return exr::select_channels(file.channel_names(), channels_);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::usage || file.path == sequence_.first.path) throw;
+    exr::select_channels(sequence_.first.channel_names(), channels_);
+    throw Error(ErrorCode::unreadable, error.what());
+  }
 }
 
 std::string Shot::describe(const ShotFrame& frame) const {

@@ -59,6 +59,7 @@ class Shot {
   Camera camera_;
   bool repair_depth_;
 
+  exr::Selection select(const exr::FileInfo& file) const;
   double depth_at_focus_pixel(const FocusPixel& pixel) const;
 };
 

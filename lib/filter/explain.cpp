@@ -71,8 +71,9 @@ Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTabl
     all_layers.push_back({kernels.coc().signed_diameter(range.first), kernels.coc().signed_diameter(range.last)});
   }
 
-  const std::uint16_t key = depth_key(coc.kind, story.depth);
   story.held_out = frame.holds_out(x, y);
+  // A held-out pixel hides nothing.
+  const std::uint16_t key = story.held_out ? kBackgroundKey : depth_key(coc.kind, story.depth);
   for (int sy = w.y0; sy < w.y1; ++sy) {
     for (int sx = w.x0; sx < w.x1; ++sx) {
       if (frame.holds_out(sx, sy)) continue;

@@ -162,7 +162,7 @@ void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const Edg
     }
     resolve_rows(rows, lanes(), y, state_.colour, result_);
   });
-  for (int y = 0; y < core_.window.height(); ++y) show_held_out(state_, 0, core_.window.width(), y, result_);
+  show_held_out(state_, result_);
   dirty_.reset(core_.window.width(), core_.window.height());
   stats_.edges += edges_;
   stats_.updated += count_pixels(selected);

@@ -36,7 +36,7 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
     core_.scatter.run(
         by_layer(tiles_, core_.layers, state_, nullptr), sources, lanes, core_.threads,
         [&](int y, std::span<const LayerRow> rows) { resolve_rows(rows, lanes, y, state_.colour, result_); });
-    for (int y = 0; y < core_.window.height(); ++y) show_held_out(state_, 0, core_.window.width(), y, result_);
+    show_held_out(state_, result_);
     stats_.scatter_ms = scatter.ms();
   });
   stats_.mode = ScatterMode::rebuild;

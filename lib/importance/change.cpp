@@ -77,7 +77,7 @@ class Detector {
     const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
     const SegmentDifference difference = ingest_.compare(x, y, n, old, committed, index, row.findings);
     // What was committed is sane, so equal bits are equal sane colours.
-    const std::uint64_t key = occlusion_ == nullptr ? 0 : changed_keys(x, y, n);
+    const std::uint64_t key = occlusion_ == nullptr ? 0 : changed_keys(index, x, y, n);
     if ((difference.index | difference.colour | key) == 0) return 0;
 
     Pixel<type> pixels[kTileWidth];
@@ -95,8 +95,9 @@ class Detector {
     return changed;
   }
 
-  std::uint64_t changed_keys(int x, int y, int n) const noexcept {
-    return occlusion_->changed_keys(kind_, frame_.depth.row(frame_.window().y0 + y) + x, x, y, n);
+  std::uint64_t changed_keys(const std::int16_t* index, int x, int y, int n) const noexcept {
+    return occlusion_->changed_keys(kind_, frame_.depth.row(frame_.window().y0 + y) + x,
+                                    frame_.has_mask() ? index : nullptr, x, y, n);
   }
 
   std::uint64_t beyond_thresholds(std::uint64_t changed, std::uint64_t key, const Pixel<type>* is,

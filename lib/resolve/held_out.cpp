@@ -1,5 +1,7 @@
 #include "resolve/held_out.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace pullfocus {
@@ -15,6 +17,12 @@ void show_held_out(const SourceState& state, int x0, int x1, int y, ColourImage&
       out.set(w.x0 + x, w.y0 + y, c, out.type() == SampleType::half ? std::clamp(value, -65504.f, 65504.f) : value);
     }
   }
+}
+
+void show_held_out(const SourceState& state, ColourImage& out) {
+  if (!state.may_hold_out) return;
+  const Window& w = state.colour.window();
+  tbb::parallel_for(0, w.height(), [&](int y) { show_held_out(state, 0, w.width(), y, out); });
 }
 
 }  // namespace pullfocus

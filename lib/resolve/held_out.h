@@ -11,4 +11,7 @@ namespace pullfocus {
 // sums, where it is needed once the mask moves on, and is not shown. `out` covers state.colour.window().
 void show_held_out(const SourceState& state, int x0, int x1, int y, ColourImage& out) noexcept;
 
+// The same for the whole window. Runs in the calling task arena.
+void show_held_out(const SourceState& state, ColourImage& out);
+
 }  // namespace pullfocus

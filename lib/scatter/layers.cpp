@@ -72,11 +72,11 @@ void split(const TileWork& work, const TileGrid& grid, const Layers& layers, con
       }
     }
     for_each_pixel(work.mask.rows[i], [&](int p) {
-      const auto add = [&](int index) {
-        if (!is_source(static_cast<std::int16_t>(index))) return;
+      const auto add = [&](std::int16_t index) {
+        if (!is_source(index)) return;
         TileWork& part = parts[layers.of(index)];
         part.mask.rows[i] |= std::uint64_t{1} << p;
-        part.max_index = std::max(part.max_index, std::abs(index));
+        part.max_index = std::max(part.max_index, reach_index(index));
       };
       const std::size_t at = row + static_cast<std::size_t>(p);
       add(state.index[at]);

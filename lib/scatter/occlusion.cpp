@@ -9,6 +9,14 @@
 
 namespace pullfocus {
 
+namespace {
+
+void hold_out(const std::int16_t* index, int n, std::uint16_t* keys) noexcept {
+  for (int i = 0; i < n; ++i) keys[i] = key_unless_held_out(keys[i], index[i]);
+}
+
+}  // namespace
+
 Occlusion::Occlusion(const VisibilityOptions& options, const KernelTable& kernels, int width, int height)
     : options_(options),
       kernels_(kernels),
@@ -56,6 +64,7 @@ void Occlusion::take_row(const Frame& frame, DepthKind kind, const SourceState& 
   depth_keys(kind, frame.depth.row(frame.window().y0 + y) + x, n, key);
   std::uint16_t *const keys = planes_.keys(y) + x, *const sizes = planes_.sizes(y) + x;
   const std::uint64_t mask = work.mask.rows[row];
+  if (state.may_hold_out) hold_out(index, n, key);
   if (mask == first_pixels(n)) {
     std::copy_n(key, n, keys);
     for (int i = 0; i < n; ++i) sizes[i] = static_cast<std::uint16_t>(reach_index(index[i]));
@@ -138,9 +147,11 @@ void Occlusion::take(const Frame& frame, DepthKind kind, const SourceState& stat
   }
 }
 
-std::uint64_t Occlusion::changed_keys(DepthKind kind, const float* depth, int x, int y, int n) const noexcept {
+std::uint64_t Occlusion::changed_keys(DepthKind kind, const float* depth, const std::int16_t* index, int x, int y,
+                                      int n) const noexcept {
   std::uint16_t key[kTileWidth];
   depth_keys(kind, depth, n, key);
+  if (index != nullptr) hold_out(index, n, key);
   const std::uint16_t* const committed = planes_.keys(y) + x;
   if (std::equal(key, key + n, committed)) return 0;
   std::uint64_t changed = 0;

@@ -5,6 +5,9 @@
 // Bit U of P's bitmap is this relation. Beyond the borders the picture goes on mirrored: an offset that crosses one
 // meets the mirror image of U. Farther away than the window nothing is hidden.
 //
+// Held-out pixels (Frame::mask) have the background's key and size 0, whatever their depth: they hide nothing, and as
+// they give nothing they are hidden from nothing either. What falls on them stays in their sums, unseen.
+//
 // No bitmap is stored: the relation is a function of the committed state, so that the bitmap a contribution was made
 // with is computed again, from two 16-bit planes, when the contribution is taken back. So none can go stale, and the
 // memory is 4 bytes a pixel instead of L * L / 8.
@@ -30,6 +33,10 @@
 
 namespace pullfocus {
 
+inline std::uint16_t key_unless_held_out(std::uint16_t key, std::int16_t index) noexcept {
+  return index == kHeldOut ? kBackgroundKey : key;
+}
+
 // The depths that a committed state was made from, and what they tell of who may hide whom. Reading is safe from any
 // number of threads; take() is not.
 class Occlusion {
@@ -47,8 +54,10 @@ class Occlusion {
   const DepthPlanes& planes() const noexcept { return planes_; }
   NearSizes near(int size) const noexcept { return near_[static_cast<std::size_t>(size)]; }
 
-  // Bit i: the depth key of pixel (x + i, y) is not the committed one; n depths, 1 <= n <= kTileWidth.
-  std::uint64_t changed_keys(DepthKind kind, const float* depth, int x, int y, int n) const noexcept;
+  // Bit i: the depth key of pixel (x + i, y) is not the committed one; n depths and signed indices (null: none is held
+  // out), 1 <= n <= kTileWidth.
+  std::uint64_t changed_keys(DepthKind kind, const float* depth, const std::int16_t* index, int x, int y,
+                             int n) const noexcept;
 
   // Columns of a tile in which a source may be hidden from a pixel.
   std::uint64_t columns(int tile) const noexcept { return columns_[static_cast<std::size_t>(tile)]; }

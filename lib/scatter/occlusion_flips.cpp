@@ -45,8 +45,9 @@ class Flips {
       for_each_pixel(work.mask.rows[i], [&](int p) {
         const int x = grid_.x(work.tile) + p, y = grid_.y(work.tile) + i;
         const DepthAndSize was{planes_.keys(y)[x], planes_.sizes(y)[x]};
-        const DepthAndSize is{depth_key(kind_, sources_.frame->depth.at(window.x0 + x, window.y0 + y)),
-                              reach_index(sources_.pending[position(x, y)])};
+        const std::int16_t index = sources_.pending[position(x, y)];
+        const std::uint16_t key = depth_key(kind_, sources_.frame->depth.at(window.x0 + x, window.y0 + y));
+        const DepthAndSize is{key_unless_held_out(key, index), reach_index(index)};
         if (was == is || !occlusion_.may_hide(x, y, was.key, is.key, was.size, is.size)) return;
         Accumulator change[kAlphaLanes] = {};
         if (of_pixel(x, y, was, is, change)) add_(y, x, change);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "exr/file_info.h"
@@ -26,6 +28,33 @@ class Artistic : public testing::Test {
     return found ? found->value() : "";
   }
 
+  // Adds channel `hold` of that type to a frame: `value` in its left half, 0 elsewhere.
+  void add_mask(int frame, Imf::PixelType type, float value) {
+    const std::string path = folder / fmt::format("shot.{:04d}.exr", frame);
+    TestImage image = exr::test::read_back(path);
+    image.add_constant("hold", type, 0);
+    const TestImage held = TestImage(image.display, image.data).add_constant("hold", type, value);
+    std::vector<std::byte>& samples = image.channels["hold"].samples;
+    const std::size_t row = samples.size() / 18;
+    for (std::size_t y = 0; y < 18; ++y) {
+      std::copy_n(&held.channels.at("hold").samples[y * row], row / 2, &samples[y * row]);
+    }
+    exr::test::write_scanlines(path, image);
+  }
+  // Pixels of the left half whose colour is the input's.
+  int kept_pixels(int frame) const {
+    const TestImage in = exr::test::read_back(folder / fmt::format("shot.{:04d}.exr", frame)), out = result(frame);
+    int kept = 0;
+    for (int y = 0; y < 18; ++y) {
+      for (int x = 0; x < 12; ++x) {
+        kept += in.value("R", x, y) == out.value("R", x, y) && in.value("G", x, y) == out.value("G", x, y) &&
+                in.value("B", x, y) == out.value("B", x, y);
+      }
+    }
+    return kept;
+  }
+
+  static constexpr const char* kBlurred = "--focus 4 --fstop 0.05 --focal-length 50 --mask hold";
   TempFolder folder;
 };
 
@@ -76,6 +105,38 @@ TEST_F(Artistic, AMaskHoldsItsPixelsOutWithBothMethods) {
   EXPECT_NE(attribute("pullfocus.method").find("mask=\"B\""), std::string::npos);
   const Outcome seen = run(fmt::format("inspect '{}' --mask B --explain 0,6", folder / "shot.####.exr"));
   EXPECT_NE(seen.out.find("are held out"), std::string::npos) << seen.out;
+}
+
+TEST_F(Artistic, AMaskMayChangeItsTypeFromFrameToFrameAndNaNHoldsNothingOut) {
+  write_shot(folder, 4, 4);
+  add_mask(1, Imf::HALF, 0.5f);
+  add_mask(2, Imf::UINT, 1);
+  add_mask(3, Imf::HALF, std::numeric_limits<float>::quiet_NaN());
+  add_mask(4, Imf::FLOAT, 1);
+  for (const char* method : {"incremental", "linear"}) {
+    for (const char* visibility : {"none", "layers", "bitmap:16"}) {
+      const Outcome done = filter(fmt::format("{} --method {} --visibility {}", kBlurred, method, visibility));
+      ASSERT_EQ(done.code, 0) << done.err;
+      for (const int frame : {1, 2, 4}) EXPECT_EQ(kept_pixels(frame), 12 * 18) << method << " frame " << frame;
+      EXPECT_LT(kept_pixels(3), 6 * 18);
+    }
+  }
+}
+
+TEST_F(Artistic, AMaskThatOneFrameLacksMakesItABadFrameThatLeavesNoTrace) {
+  add_mask(1, Imf::HALF, 1);
+  add_mask(3, Imf::HALF, 1);
+  const Outcome stopped = filter(kBlurred);
+  EXPECT_EQ(stopped.code, 1);
+  EXPECT_EQ(stopped.error_lines(), 1u) << stopped.err;
+  for (const char* part : {"frame 2", "shot.0002.exr", "--mask hold"}) {
+    EXPECT_NE(stopped.err.find(part), std::string::npos) << stopped.err;
+  }
+  EXPECT_EQ(filter(fmt::format("{} --skip-bad-frames", kBlurred)).code, 1);
+  const TestImage skipped = result(3);
+  ASSERT_EQ(filter(fmt::format("{} --frames 3", kBlurred)).code, 0);
+  EXPECT_EQ(result(3).channels, skipped.channels);
+  EXPECT_EQ(kept_pixels(3), 12 * 18);
 }
 
 TEST_F(Artistic, WrongScalesAndMasksAreNamedInOneLine) {

@@ -22,9 +22,7 @@ std::vector<Accumulator> exact_sums_with_bitmaps(const SourceState& state, const
                                                  int lanes) {
   const Window& w = state.colour.window();
   const int width = w.width(), height = w.height(), half = visibility.bitmap_size / 2;
-  const auto size = [&](int index) {
-    return !is_source(static_cast<std::int16_t>(index)) ? 0 : kernels.coc().diameter(index);
-  };
+  const auto size = [&](std::int16_t index) { return is_source(index) ? kernels.coc().diameter(index) : 0; };
   std::vector<Accumulator> sums(w.pixels() * static_cast<std::size_t>(lanes));
   for (int py = 0; py < height; ++py) {
     for (int px = 0; px < width; ++px) {

@@ -29,12 +29,23 @@ CocFunction wide_lens() {
   return coc;
 }
 
-FilterOptions options_for(SampleType output) {
+FilterOptions plain_options(SampleType output) {
   FilterOptions options;
   options.kernel.max_coc_px = 20;
   options.output_type = output;
+  options.visibility.kind = VisibilityOptions::Kind::none;
   return options;
 }
+
+class Holdout : public testing::TestWithParam<const char*> {
+ protected:
+  static FilterOptions options_for(SampleType output) {
+    FilterOptions options = plain_options(output);
+    options.visibility = parse_visibility(GetParam());
+    options.visibility.cutoff_px = 0.5;
+    return options;
+  }
+};
 
 bool in_mask(int x, int y) { return (x / 5 + y / 3) % 3 == 0; }
 
@@ -43,7 +54,7 @@ void draw_mask(Frame& frame, int shift) {
   test::for_each_in(window, [&](int x, int y) { frame.mask.at(x, y) = in_mask(x + shift, y) ? 0.5f : 0.49f; });
 }
 
-TEST(Holdout, ShowsItsOwnColourExactlyInEveryTypeWithAndWithoutAlpha) {
+TEST_P(Holdout, ShowsItsOwnColourExactlyInEveryTypeWithAndWithoutAlpha) {
   for (const SampleType in : {SampleType::half, SampleType::float32}) {
     for (const SampleType out : {SampleType::half, SampleType::float32}) {
       for (const bool with_alpha : {false, true}) {
@@ -64,7 +75,7 @@ TEST(Holdout, ShowsItsOwnColourExactlyInEveryTypeWithAndWithoutAlpha) {
   }
 }
 
-TEST(Holdout, ShowsItsSanitisedColourAndNeverInfinity) {
+TEST_P(Holdout, ShowsItsSanitisedColourAndNeverInfinity) {
   Frame frame = busy_frame(SampleType::float32, true, 2);
   frame.mask.reset(window, 1);
   const float samples[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 3e38f,
@@ -78,7 +89,7 @@ TEST(Holdout, ShowsItsSanitisedColourAndNeverInfinity) {
   EXPECT_EQ(filter.result().get(0, 5, 3), 0.25f);
 }
 
-TEST(Holdout, ContributesNothingToAnyone) {
+TEST_P(Holdout, ContributesNothingToAnyone) {
   Frame frame = busy_frame(SampleType::float32, true, 3), other = frame;
   draw_mask(frame, 0);
   other.mask = frame.mask;
@@ -96,10 +107,10 @@ TEST(Holdout, ContributesNothingToAnyone) {
   });
 }
 
-TEST(Holdout, AgreesWithThePlainTwin) {
+TEST(HoldoutOfPlainScatter, AgreesWithThePlainTwin) {
   Frame frame = busy_frame(SampleType::float32, true, 4);
   draw_mask(frame, 2);
-  const FilterOptions options = options_for(SampleType::float32);
+  const FilterOptions options = plain_options(SampleType::float32);
   const KernelTable kernels(options.kernel);
   LinearFilter filter(window, options);
   filter.filter(frame, wide_lens());
@@ -112,7 +123,7 @@ TEST(Holdout, AgreesWithThePlainTwin) {
   });
 }
 
-TEST(Holdout, AMaskOfNothingChangesNoBitAndAMaskOfEverythingIsTheInput) {
+TEST_P(Holdout, AMaskOfNothingChangesNoBitAndAMaskOfEverythingIsTheInput) {
   Frame frame = busy_frame(SampleType::half, true, 5), masked = frame;
   const FilterOptions options = options_for(SampleType::half);
   LinearFilter plain(window, options), linear(window, options);
@@ -130,10 +141,12 @@ TEST(Holdout, AMaskOfNothingChangesNoBitAndAMaskOfEverythingIsTheInput) {
   incremental.filter(masked, wide_lens());
   EXPECT_EQ(test::difference(linear.result(), frame.colour), "");
   EXPECT_EQ(test::difference(incremental.result(), frame.colour), "");
-  for (const Accumulator sum : incremental.accumulators()) ASSERT_EQ(sum, 0u);
+  for (int layer = 0; layer < incremental.layers().count(); ++layer) {
+    for (const Accumulator sum : incremental.accumulators(layer)) ASSERT_EQ(sum, 0u);
+  }
 }
 
-TEST(Holdout, AChangeOfColourAloneIsShownThoughNothingIsScattered) {
+TEST_P(Holdout, AChangeOfColourAloneIsShownThoughNothingIsScattered) {
   Frame frame = busy_frame(SampleType::half, true, 6);
   frame.mask.reset(window, 0);
   frame.mask.at(20, 20) = 1;
@@ -152,7 +165,7 @@ TEST(Holdout, AChangeOfColourAloneIsShownThoughNothingIsScattered) {
   EXPECT_EQ(test::difference(incremental.result(), linear.result()), "");
 }
 
-TEST(Holdout, AMovingMaskUnderBudgetsAndThresholdsEndsExactOnceRefined) {
+TEST_P(Holdout, AMovingMaskUnderBudgetsAndThresholdsEndsExactOnceRefined) {
   Frame frame = busy_frame(SampleType::half, true, 8);
   FilterOptions options = options_for(SampleType::float32);
   LinearFilter linear(window, options);
@@ -162,6 +175,9 @@ TEST(Holdout, AMovingMaskUnderBudgetsAndThresholdsEndsExactOnceRefined) {
   options.budget = Budget{};
   options.thresholds = {100, 1000};
   IncrementalFilter tolerant(window, options);
+  options.thresholds = {};
+  options.error_bound = 1;
+  IncrementalFilter bounded(window, options);
   for (int step = 0; step < 6; ++step) {
     draw_mask(frame, step);
     int slices = 5;
@@ -180,10 +196,12 @@ TEST(Holdout, AMovingMaskUnderBudgetsAndThresholdsEndsExactOnceRefined) {
     }
     tolerant.filter(frame, wide_lens());  // no threshold is wide enough to miss that a pixel is held out or released
     ASSERT_EQ(test::difference(tolerant.result(), linear.result()), "") << step;
+    bounded.filter(frame, wide_lens());
+    ASSERT_EQ(test::difference(bounded.result(), linear.result()), "") << step;
   }
 }
 
-TEST(Holdout, DoesNotWidenTheOutputWindowByBlurItDoesNotCause) {
+TEST_P(Holdout, DoesNotWidenTheOutputWindowByBlurItDoesNotCause) {
   Frame frame = test::empty_frame(window, SampleType::half, DepthKind::coc);
   test::set_colour(frame.colour, 20, 20, {1, 1, 1, 1});
   frame.depth.at(20, 20) = 9;
@@ -197,25 +215,28 @@ TEST(Holdout, DoesNotWidenTheOutputWindowByBlurItDoesNotCause) {
   EXPECT_EQ(filter.result().get(20, 20, 0), 1);
 }
 
-TEST(Holdout, ExplainAndPlanSayWhatIsHeldOut) {
+TEST_P(Holdout, ExplainAndPlanSayWhatIsHeldOut) {
   Frame frame = busy_frame(SampleType::half, true, 9);
   frame.mask.reset(window, 0);
   for (int x = 18; x < 23; ++x) frame.mask.at(x, 20) = 1;
   const FilterOptions options = options_for(SampleType::half);
   const KernelTable kernels(options.kernel);
-  const Explanation held = explain(frame, wide_lens(), kernels, 20, 20, 1000);
+  const Explanation held = explain(frame, wide_lens(), kernels, 20, 20, 1000, options.visibility);
   EXPECT_TRUE(held.held_out);
   EXPECT_EQ(held.own_share, 1);
-  const Explanation beside = explain(frame, wide_lens(), kernels, 20, 21, 1000);
+  const Explanation beside = explain(frame, wide_lens(), kernels, 20, 21, 1000, options.visibility);
   EXPECT_FALSE(beside.held_out);
   for (const Contributor& c : beside.largest) EXPECT_FALSE(frame.holds_out(c.x, c.y));
   EXPECT_EQ(make_plan(options, kernels, frame, wide_lens(), nullptr, {}).held_out, 5);
 }
 
-TEST(Holdout, AMaskOverAnotherWindowIsRefused) {
+INSTANTIATE_TEST_SUITE_P(Visibilities, Holdout,
+                         testing::Values("none", "layers", "layers:-6,-1,0,3", "bitmap:32", "bitmap:4"));
+
+TEST(HoldoutMask, OverAnotherWindowIsRefused) {
   Frame frame = busy_frame(SampleType::half, true, 10);
   frame.mask.reset({0, 0, 5, 5}, 0);
-  LinearFilter linear(window, options_for(SampleType::half));
+  LinearFilter linear(window, plain_options(SampleType::half));
   EXPECT_THROW(linear.filter(frame, wide_lens()), Error);
 }
 
