@@ -114,7 +114,7 @@ bool ResolveSpan(const Accumulator* values, int lanes, int n, SampleType type, v
 // One pixel of several layers, whose sums are given. Returns false if it has no weight.
 template <int lanes>
 HWY_INLINE bool Combine(const std::int64_t* const* layers, std::size_t count, std::size_t at, float* HWY_RESTRICT out) {
-  constexpr double unit = static_cast<double>(kWeightUnit);
+  constexpr double unit = static_cast<double>(kCoveringWeight);
   const std::int64_t* farthest = nullptr;
   int reached = 0;
   for (std::size_t l = 0; l < count; ++l) {

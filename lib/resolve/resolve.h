@@ -17,8 +17,13 @@ namespace pullfocus {
 void resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, const ColourImage& own,
                   ColourImage& out) noexcept;
 
-// The same from the sums of several layers, nearest first (null: nothing has reached there), in which a weight of
-// kWeightUnit covers a pixel. Each layer gives at most what those before it have left free (DESIGN section 6):
+// Weight that covers a pixel where several layers meet: 15/16 of kWeightUnit. Where its CoC changes from pixel to
+// pixel, a surface's weights sum to somewhat less than one unit here and more there, and through the gaps a layer
+// behind it would shine (measured in docs/visibility.md).
+inline constexpr std::int64_t kCoveringWeight = kWeightUnit / 16 * 15;
+
+// The same from the sums of several layers, nearest first (null: nothing has reached there). With weights in units of
+// kCoveringWeight, each layer gives at most what those before it have left free (after DESIGN section 6):
 //
 //   accepted_i = min(weight_i, 1 - sum of accepted before)       colour = sum accepted_i num_i / weight_i
 //

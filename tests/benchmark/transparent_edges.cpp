@@ -1,9 +1,10 @@
-// docs/transparent-edges.png: a ball with motion-blurred alpha, filtered with the default options and composited over
-// black, white and red afterwards; and the rims there, in figures.
+// docs/transparent-edges.png: a ball with motion-blurred alpha, filtered and composited over black, white and red
+// afterwards; and the rims there by visibility, in figures (a Markdown table).
 //
 //   transparent_edges FRAME.exr SHEET.png      FRAME: a frame of the OpenEXR project's "beachball" sequence
 //
-// Rows: the input; focus on the ball; focus far in front of it; the upper edge with the ball in focus, enlarged.
+// Rows: the input; focus on the ball; focus far in front of it; the upper edge with focus on the ball, enlarged, first
+// without visibility and then, as all others, with the default.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +12,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "exr/reader.h"
 #include "imageio/picture.h"
@@ -21,7 +26,6 @@ namespace {
 
 using Colour = std::array<float, 3>;
 constexpr Colour kColours[] = {{0, 0, 0}, {1, 1, 1}, {1, 0, 0}};
-constexpr const char* kNames[] = {"black", "white", "red"};
 
 CocFunction focused_at(double distance, const Window& display) {
   ThinLens lens;
@@ -36,9 +40,10 @@ float over(const ColourImage& image, int x, int y, int c, const Colour& colour) 
   return image.get(x, y, c) + (1 - image.get(x, y, 3)) * colour[static_cast<std::size_t>(c)];
 }
 
-ColourImage filtered(const Frame& frame, const CocFunction& coc, SampleType type) {
+ColourImage filtered(const Frame& frame, const CocFunction& coc, SampleType type, const char* visibility = "auto") {
   FilterOptions options;
   options.output_type = type;
+  options.visibility = parse_visibility(visibility);
   const auto filter = make_incremental_filter(frame.window(), options);
   filter->filter(frame, coc);
   return filter->result();
@@ -58,31 +63,58 @@ Frame composite(const Frame& frame, const Colour& colour) {
   return result;
 }
 
-// Largest difference of the composite of the filtered picture to the filtered composite.
-float rim(const Frame& frame, const CocFunction& coc, const Colour& colour) {
-  const ColourImage a = filtered(frame, coc, SampleType::float32);
-  const ColourImage b = filtered(composite(frame, colour), coc, SampleType::float32);
+// Largest difference of the composite of the filtered picture to the filtered composite, over all colours.
+float rim(const Frame& frame, const CocFunction& coc, const ColourImage& result, const char* visibility) {
   float largest = 0;
   const Window& w = frame.window();
-  for (int y = w.y0; y < w.y1; ++y) {
-    for (int x = w.x0; x < w.x1; ++x) {
-      for (int c = 0; c < 3; ++c) largest = std::max(largest, std::fabs(over(a, x, y, c, colour) - b.get(x, y, c)));
+  for (const Colour& colour : kColours) {
+    const ColourImage expected = filtered(composite(frame, colour), coc, SampleType::float32, visibility);
+    for (int y = w.y0; y < w.y1; ++y) {
+      for (int x = w.x0; x < w.x1; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          largest = std::max(largest, std::fabs(over(result, x, y, c, colour) - expected.get(x, y, c)));
+        }
+      }
     }
   }
   return largest;
 }
 
-// The least alpha where the frame's is 1: what shines through the ball where plain scatter lets the blurred nothing
-// behind it leak onto it.
-float least_opaque_alpha(const Frame& frame, const ColourImage& result) {
-  float least = 1;
+// What shines through the ball: 1 - alpha at the pixels around which all is opaque as far as its own blur reaches.
+struct Loss {
+  float largest = 0;
+  double share = 0;       // of those pixels, where it is more than 1 %
+  float least_alpha = 1;  // of all opaque pixels, those that its blurred edge reaches included
+};
+
+Loss loss_inside(const Frame& frame, const ColourImage& result, int reach) {
+  Loss loss;
   const Window& w = frame.window();
+  const auto width = static_cast<std::size_t>(w.width()) + 1;
+  std::vector<int> opaque(width * (static_cast<std::size_t>(w.height()) + 1));  // sums of all to the left and above
+  const auto at = [&](int x, int y) -> int& {
+    return opaque[static_cast<std::size_t>(y - w.y0) * width + static_cast<std::size_t>(x - w.x0)];
+  };
   for (int y = w.y0; y < w.y1; ++y) {
     for (int x = w.x0; x < w.x1; ++x) {
-      if (frame.colour.get(x, y, 3) == 1) least = std::min(least, result.get(x, y, 3));
+      const bool is_opaque = frame.colour.get(x, y, 3) == 1;
+      at(x + 1, y + 1) = at(x, y + 1) + at(x + 1, y) - at(x, y) + is_opaque;
+      if (is_opaque) loss.least_alpha = std::min(loss.least_alpha, result.get(x, y, 3));
     }
   }
-  return least;
+  int inside = 0, lossy = 0;
+  const int side = 2 * reach + 1;
+  for (int y = w.y0; y + side <= w.y1; ++y) {
+    for (int x = w.x0; x + side <= w.x1; ++x) {
+      if (at(x + side, y + side) - at(x, y + side) - at(x + side, y) + at(x, y) != side * side) continue;
+      const float lost = 1 - result.get(x + reach, y + reach, 3);
+      loss.largest = std::max(loss.largest, lost);
+      ++inside;
+      lossy += lost > 0.01f;
+    }
+  }
+  loss.share = inside > 0 ? static_cast<double>(lossy) / inside : 0;
+  return loss;
 }
 
 class Sheet {
@@ -123,41 +155,71 @@ class Sheet {
   imageio::Picture picture_;
 };
 
+struct Ball {
+  Window bounds;
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+};
+
+Ball find_ball(const Frame& frame) {
+  Ball ball;
+  const Window& w = frame.window();
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      if (frame.colour.get(x, y, 3) == 0) continue;
+      ball.bounds = unite(ball.bounds, {x, y, x + 1, y + 1});
+      ball.nearest = std::min(ball.nearest, frame.depth.at(x, y));
+      ball.farthest = std::max(ball.farthest, frame.depth.at(x, y));
+    }
+  }
+  return ball;
+}
+
+void print_rims(const Frame& frame, const Ball& ball) {
+  fmt::print(
+      "| focus | CoC of the ball | visibility | difference | largest loss | more than 1 % lost | least alpha |\n"
+      "|---|---|---|---|---|---|---|\n");
+  const std::pair<const char*, double> focuses[] = {{"its rim", ball.farthest},
+                                                    {"its middle", (ball.farthest + ball.nearest) / 2},
+                                                    {"its front", ball.nearest},
+                                                    {"halfway to it", ball.farthest / 2}};
+  for (const auto& [name, distance] : focuses) {
+    const CocFunction coc = focused_at(distance, frame.window());
+    const float front = coc(ball.nearest), back = coc(ball.farthest);
+    const int reach = static_cast<int>(std::ceil(std::max(std::fabs(front), std::fabs(back)) / 2)) + 1;
+    for (const char* visibility : {"none", "layers", "layers:-2,2,50", "bitmap:32"}) {
+      const ColourImage result = filtered(frame, coc, SampleType::float32, visibility);
+      const Loss loss = loss_inside(frame, result, reach);
+      fmt::print("| {} | {:.0f} to {:.0f} px | {} | {:.1g} | {:.3f} | {:.2f} % | {:.3f} |\n", name, front, back,
+                 visibility, rim(frame, coc, result, visibility), loss.largest, 100 * loss.share, loss.least_alpha);
+    }
+  }
+}
+
 int run(const std::string& path, const std::string& sheet_path) {
   const Window display = exr::read_header(path).display_window;
   Frame frame;
   exr::read_frame(path, {}, display, frame, nullptr);
-  Window ball;
-  float depth = 0;
-  for (int y = display.y0; y < display.y1; ++y) {
-    for (int x = display.x0; x < display.x1; ++x) {
-      if (frame.colour.get(x, y, 3) == 0) continue;
-      ball = unite(ball, {x, y, x + 1, y + 1});
-      depth = std::max(depth, frame.depth.at(x, y));
-    }
-  }
-  const Window part = intersect(display, grow(ball, 120, 40));
+  const Ball ball = find_ball(frame);
+  const Window part = intersect(display, grow(ball.bounds, 120, 40));
   // Where the motion runs along the edge.
-  const int cx = (3 * ball.x0 + ball.x1) / 4;
-  const Window edge = intersect(display, {cx - 60, ball.y0, cx + 60, ball.y0 + 100});
-  const CocFunction on_ball = focused_at(static_cast<double>(depth), display);
-  const CocFunction in_front = focused_at(static_cast<double>(depth) / 2, display);
-  fmt::print("ball x {}..{}, y {}..{}, depth to {}, CoC {:.1f} px when focused in front\n", ball.x0, ball.x1 - 1,
-             ball.y0, ball.y1 - 1, depth, in_front(depth));
+  const int cx = (3 * ball.bounds.x0 + ball.bounds.x1) / 4;
+  const Window edge = intersect(display, {cx - 60, ball.bounds.y0, cx + 60, ball.bounds.y0 + 100});
+  const CocFunction on_ball = focused_at(static_cast<double>(ball.farthest), display);
+  const CocFunction in_front = focused_at(static_cast<double>(ball.farthest) / 2, display);
 
-  Sheet sheet(3, 4);
+  Sheet sheet(3, 5);
   const ColourImage sharp = filtered(frame, on_ball, SampleType::half);
+  const ColourImage plain = filtered(frame, on_ball, SampleType::half, "none");
   const ColourImage blurred = filtered(frame, in_front, SampleType::half);
   for (int k = 0; k < 3; ++k) {
     sheet.put(k, 0, frame.colour, part, kColours[k]);
     sheet.put(k, 1, sharp, part, kColours[k]);
     sheet.put(k, 2, blurred, part, kColours[k]);
-    sheet.put(k, 3, sharp, edge, kColours[k]);
-    fmt::print("over {:6} rim {:.2g} focused on the ball, {:.2g} in front of it\n", kNames[k],
-               rim(frame, on_ball, kColours[k]), rim(frame, in_front, kColours[k]));
+    sheet.put(k, 3, plain, edge, kColours[k]);
+    sheet.put(k, 4, sharp, edge, kColours[k]);
   }
-  fmt::print("least alpha on the opaque ball in focus: {:.3f}\n", least_opaque_alpha(frame, sharp));
   imageio::write_picture(sheet_path, sheet.picture());
+  print_rims(frame, ball);
   return EXIT_SUCCESS;
 }
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <set>
+#include <string>
 
 #include "depth_scenes.h"
 
@@ -15,19 +17,22 @@ using namespace test;
 
 TEST(DepthRepair, BringsTheCocOfABoxFilteredShotBackToThatOfTheCleanOne) {
   for (const double size : {1., 1.5, 2.}) {
-    double before = 0, after = 0;
+    double before = 0, after = 0, least = 1;
     for (unsigned seed = 1; seed <= 12; ++seed) {
       const Frame truth = clean(window, cards(seed));
       Frame frame = box_filtered(window, cards(seed), size);
       const DepthEdges found = find_depth_edges(frame, DepthKind::planar);
       EXPECT_TRUE(found.look_antialiased()) << found.mixed << " of " << found.mixed + found.sharp;
       EXPECT_FALSE(find_depth_edges(truth, DepthKind::planar).look_antialiased());
+      least = std::min(least, found.share());
       before += coc_error(frame, truth, lens);
       EXPECT_GT(repair_depth(frame, DepthKind::planar), 0);
       EXPECT_LT(find_depth_edges(frame, DepthKind::planar).share(), 0.02);
       after += coc_error(frame, truth, lens);
     }
     EXPECT_LT(after, 0.3 * before) << "box of " << size << " px";
+    RecordProperty("error_left_box_" + std::to_string(size), std::to_string(after / before));
+    RecordProperty("least_share_of_mixed_box_" + std::to_string(size), std::to_string(least));
   }
 }
 

@@ -72,7 +72,8 @@ TEST(VisibilityText, IsReadAndWrongOnesAreNamed) {
 
 // A pixel from plain sums in long double, after the formula.
 std::array<double, 4> combined(const std::vector<std::array<double, 5>>& layers) {
-  long double free = 1, colour[4] = {};
+  constexpr long double cover = 15 / 16.l;
+  long double free = cover, colour[4] = {};
   const std::array<double, 5>* last = nullptr;
   for (const auto& layer : layers) {
     if (layer[4] == 0) continue;
@@ -83,7 +84,7 @@ std::array<double, 4> combined(const std::vector<std::array<double, 5>>& layers)
   }
   std::array<double, 4> result{};
   for (std::size_t c = 0; c < 4; ++c) {
-    result[c] = static_cast<double>(colour[c] + (*last)[c] / (*last)[4] * free);
+    result[c] = static_cast<double>((colour[c] + (*last)[c] / (*last)[4] * free) / cover);
   }
   return result;
 }

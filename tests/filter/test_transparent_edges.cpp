@@ -1,9 +1,11 @@
 // Premultiplied pictures with antialiased or motion-blurred alpha, composited after filtering: no rims.
 //
-// A rim is measured in two ways, over any plain colour K:
+// A rim is measured in three ways, over any plain colour K:
 //   identity   over(filter(picture), K) against filter(over(picture, K)): both are the same sum, since K is constant
 //   overshoot  how far the composite leaves the range that the foreground, what lies behind it and K span
-// Weights that depend on alpha, or colours divided by it, break both at once.
+//   loss       1 - alpha where all that an opaque surface's own blur can reach is opaque: there K must not shine
+//   through
+// Weights that depend on alpha, or colours divided by it, break the first two at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,6 +103,38 @@ INSTANTIATE_TEST_SUITE_P(Discs, TransparentEdges,
                          testing::Values(Shot{0, 0, 0, 12}, Shot{0, 0, 9, 0}, Shot{0, 0, -14, 6}, Shot{0, 12, 0, 8},
                                          Shot{0, 12, -10, 4}, Shot{0.6, 0, 0, 12}, Shot{0.6, 12, -9, 3},
                                          Shot{1, 0, 0, 10}, Shot{1, 12, 8, 0}));
+
+// A ball over blurred nothing, its diameters from `rim` to `rim + front` in steps as of half depth.
+double largest_loss(const char* visibility, float rim, float front) {
+  Frame frame{ColourImage(window, SampleType::float32), Plane(window, 40)};
+  const auto distance = [](int x, int y) { return std::hypot(x - 44.5, y - 34.5); };
+  constexpr double radius = 30;
+  test::for_each_in(window, [&](int x, int y) {
+    const double d = distance(x, y);
+    if (d >= radius) return;
+    for (int c = 0; c < 4; ++c) frame.colour.set(x, y, c, 1);
+    const double height = std::sqrt(1 - d * d / (radius * radius));
+    frame.depth.at(x, y) = std::round((rim + front * static_cast<float>(height)) * 12) / 12;
+  });
+  FilterOptions options = test::options_up_to(40);
+  options.visibility = parse_visibility(visibility);
+  const ColourImage result = filtered(frame, options);
+  const double reach = std::max(std::fabs(rim), std::fabs(rim + front)) / 2 + 2;
+  double most = 0;
+  test::for_each_in(window, [&](int x, int y) {
+    if (distance(x, y) < radius - reach) most = std::max(most, 1 - static_cast<double>(result.get(x, y, 3)));
+  });
+  return most;
+}
+
+TEST(OpaqueBall, BlurredNothingDoesNotShineThroughAnOpaqueBallOfAnotherLayer) {
+  EXPECT_EQ(largest_loss("layers", 0, -15), 0);    // focus at the rim
+  EXPECT_EQ(largest_loss("layers", 1.5, -12), 0);  // behind it
+  // In the layer of what lies behind, and without layers, it does; a border between the two helps.
+  EXPECT_GT(largest_loss("none", 0, -15), 0.2);
+  EXPECT_GT(largest_loss("layers", 15, -15), 0.2);
+  EXPECT_LT(largest_loss("layers:-2,2,30", 15, -15), 0.08);
+}
 
 }  // namespace
 }  // namespace pullfocus
