@@ -176,6 +176,9 @@ void say_explanation(const Shot& shot, const ShotFrame& read, const CocFunction&
     }
   }
   if (e.held_out) say("", "held out by the mask: it shows its own colour alone and gives none; what is lost on it:");
+  if (e.filled_share > 0) {
+    say("", "what is behind is hidden here: {:.2f} % are filled from where it is seen nearby", 100 * e.filled_share);
+  }
   say("", "{} pixels cover it, total weight {:.4f}; its own share is {:.2f} %; the largest:", e.contributors,
       e.total_weight, 100 * e.own_share);
   for (const Contributor& c : e.largest) {

@@ -44,6 +44,7 @@ FilterCore::FilterCore(const Window& state_window, const FilterOptions& filter_o
   if (options.visibility.kind == VisibilityOptions::Kind::bitmap) {
     occlusion.emplace(options.visibility, *kernels, window.width(), window.height());
   }
+  if (layers.near() > 0 && layers.near() < layers.count()) backdrop.emplace(window.width(), window.height());
 }
 
 void FilterCore::check(const Frame& frame) const {

@@ -9,6 +9,7 @@
 
 #include "filter/filter.h"
 #include "importance/change.h"
+#include "resolve/backdrop.h"
 #include "scatter/occlusion.h"
 #include "scatter/scatter.h"
 
@@ -36,6 +37,8 @@ struct FilterCore {
 
   // Null if nothing hides anything.
   const Occlusion* hidden() const noexcept { return occlusion ? &*occlusion : nullptr; }
+  // Null if no layer lies in front of others.
+  Backdrop* behind() noexcept { return backdrop ? &*backdrop : nullptr; }
 
   static void report(const FrameFindings& findings, Stats& stats) noexcept;
 
@@ -48,6 +51,7 @@ struct FilterCore {
   Scatter scatter;
   Layers layers;                       // a single one without visibility
   std::optional<Occlusion> occlusion;  // with VisibilityOptions::Kind::bitmap
+  std::optional<Backdrop> backdrop;    // of the result, with layers in front of focus and behind them
 };
 
 // Same values, stored as floats.

@@ -37,14 +37,15 @@ struct Explanation {
   double diameter_px = 0;   // of the kernel used
   double own_share = 0;     // of the pixel's result that is its own colour
   double total_weight = 0;  // over all layers; 1 where every source around has the same CoC
-  std::int64_t contributors = 0;
+  double filled_share = 0;  // of the result, from what is seen behind the foreground around (see resolve/backdrop.h)
+  std::int64_t contributors = 0;     // that cover the pixel itself
   std::vector<LayerShare> layers;    // those that have sources here, nearest first
-  std::vector<Contributor> largest;  // by share, then nearest row and column
+  std::vector<Contributor> largest;  // those of the filled share included; by share, then nearest row and column
 };
 
 // Pixel (x, y) in window coordinates, inside frame.window(); the `most` largest contributors. Exact: the same
-// weights, mirrored at the same borders, with bitmaps hidden at the same offsets, and with layers accepted in the same
-// order as the filter's: the sum of share times colour is the pixel of the result. Throws as validate() of the
+// weights, mirrored at the same borders, with bitmaps hidden at the same offsets, and with layers accepted and holes
+// filled as by the filter: the sum of share times colour is the pixel of the result. Throws as validate() of the
 // visibility does.
 Explanation explain(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, int x, int y,
                     std::size_t most, const VisibilityOptions& visibility = {});

@@ -20,6 +20,7 @@ IncrementalFilter::IncrementalFilter(const Window& state_window, const FilterOpt
 void IncrementalFilter::reset() {
   state_.reset(core_.window, SampleType::half);
   if (core_.occlusion) core_.occlusion->reset();
+  if (core_.backdrop) core_.backdrop->reset();
   pending_.assign(core_.window.pixels(), 0);
   sums_.reset(core_.window.width(), core_.window.height(), core_.layers.count(), kOpaqueLanes);
   uncommitted_ = static_cast<std::int64_t>(core_.window.pixels());
@@ -172,13 +173,15 @@ void IncrementalFilter::resolve_dirty() {
       for (int x = x0; x < x1;) {
         const int end = std::min((x / kTileWidth + 1) * kTileWidth, x1);
         for (std::size_t l = 0; l < count; ++l) layers[l] = sums_.at(static_cast<int>(l), x, y);
-        resolve_layers({layers, count}, lanes(), x, end, y, state_.colour, result_);
+        resolve_layers({layers, count}, lanes(), x, end, y, state_.colour, result_,
+                       static_cast<std::size_t>(core_.layers.near()), core_.behind());
         x = end;
       }
-      show_held_out(state_, x0, x1, y, result_);
       resolved[static_cast<std::size_t>(y)] += x1 - x0;
     });
   });
+  if (core_.backdrop) core_.backdrop->fill(result_);
+  show_held_out(state_, result_);
   stats_.resolved += std::accumulate(resolved.begin(), resolved.end(), std::int64_t{0});
 }
 

@@ -160,9 +160,8 @@ void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const Edg
         sums_.add(row.layer, y, span, row.values + static_cast<std::ptrdiff_t>(span.x0) * lanes());
       }
     }
-    resolve_rows(rows, lanes(), y, state_.colour, result_);
+    resolve_rows(rows, lanes(), y, state_.colour, result_, core_.layers.near(), core_.behind());
   });
-  show_held_out(state_, result_);
   dirty_.reset(core_.window.width(), core_.window.height());
   stats_.edges += edges_;
   stats_.updated += count_pixels(selected);

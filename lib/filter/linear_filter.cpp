@@ -33,9 +33,11 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
     const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
     Sources sources{&state_};
     sources.occlusion = core_.hidden();
-    core_.scatter.run(
-        by_layer(tiles_, core_.layers, state_, nullptr), sources, lanes, core_.threads,
-        [&](int y, std::span<const LayerRow> rows) { resolve_rows(rows, lanes, y, state_.colour, result_); });
+    core_.scatter.run(by_layer(tiles_, core_.layers, state_, nullptr), sources, lanes, core_.threads,
+                      [&](int y, std::span<const LayerRow> rows) {
+                        resolve_rows(rows, lanes, y, state_.colour, result_, core_.layers.near(), core_.behind());
+                      });
+    if (core_.backdrop) core_.backdrop->fill(result_);
     show_held_out(state_, result_);
     stats_.scatter_ms = scatter.ms();
   });

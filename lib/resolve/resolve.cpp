@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "image/sanitise.h"
 
@@ -111,27 +112,37 @@ bool ResolveSpan(const Accumulator* values, int lanes, int n, SampleType type, v
                                : Resolve<SampleType::float32, kAlphaLanes>(values, n, pixels);
 }
 
-// One pixel of several layers, whose sums are given. Returns false if it has no weight.
+// Which of the layers reach a pixel (none: first > last), and what they leave free of a unit that covers it.
+struct Reached {
+  std::size_t first = 1, last = 0;
+  double free = 1;
+};
+
+constexpr double kUnit = static_cast<double>(kCoveringWeight);
+
+// One pixel of several layers, whose sums are given.
 template <int lanes>
-HWY_INLINE bool Combine(const std::int64_t* const* layers, std::size_t count, std::size_t at, float* HWY_RESTRICT out) {
-  constexpr double unit = static_cast<double>(kCoveringWeight);
-  const std::int64_t* farthest = nullptr;
-  int reached = 0;
+HWY_INLINE Reached Combine(const std::int64_t* const* layers, std::size_t count, std::size_t at,
+                           float* HWY_RESTRICT out) {
+  Reached reached;
+  std::size_t n = 0;
   for (std::size_t l = 0; l < count; ++l) {
-    const std::int64_t* sums = layers[l] + at;
-    if (sums[kWeightLane] == 0) continue;
-    farthest = sums;
-    ++reached;
+    if (layers[l][at + kWeightLane] == 0) continue;
+    if (n++ == 0) reached.first = l;
+    reached.last = l;
   }
-  if (reached == 0) return false;
+  if (n == 0) return reached;
+  const std::int64_t* const farthest = layers[reached.last] + at;
   double colour[4] = {}, scale = 0;
-  if (reached == 1) {
-    scale = 1.0 / static_cast<double>(farthest[kWeightLane]);
+  if (n == 1) {
+    const double weight = static_cast<double>(farthest[kWeightLane]);
+    scale = 1.0 / weight;
     for (int c = 0; c < 3; ++c) colour[c] = static_cast<double>(farthest[c]);
     if constexpr (lanes == kAlphaLanes) colour[3] = static_cast<double>(farthest[kAlphaLane]);
+    reached.free = weight < kUnit ? 1 - weight / kUnit : 0;
   } else {
-    double free = unit;
-    for (std::size_t l = 0; l < count && free > 0; ++l) {
+    double free = kUnit;
+    for (std::size_t l = reached.first; l <= reached.last && free > 0; ++l) {
       const std::int64_t* sums = layers[l] + at;
       if (sums[kWeightLane] == 0) continue;
       const double weight = static_cast<double>(sums[kWeightLane]);
@@ -146,35 +157,61 @@ HWY_INLINE bool Combine(const std::int64_t* const* layers, std::size_t count, st
       for (int c = 0; c < 3; ++c) colour[c] += static_cast<double>(farthest[c]) * share;
       if constexpr (lanes == kAlphaLanes) colour[3] += static_cast<double>(farthest[kAlphaLane]) * share;
     }
-    scale = 1.0 / unit;
+    reached.free = free / kUnit;
+    scale = 1.0 / kUnit;
   }
   for (int c = 0; c < 4; ++c) out[c] = static_cast<float>(colour[c] * scale);
   if constexpr (lanes == kOpaqueLanes) out[3] = 1.f;
-  return true;
+  return reached;
 }
 
-// n <= kChunk pixels of layers that all have sums there. Returns false if a pixel had no weight.
+// What the backdrop is to know of pixel i, `colour` being what it was given.
+template <int lanes>
+HWY_INLINE void Look(const std::int64_t* const* layers, std::size_t count, std::size_t near, std::size_t at,
+                     const Reached& reached, const float* colour, int i, Backdrop::Chunk& chunk) {
+  if (reached.first >= near || reached.first > reached.last) return;
+  if (reached.last < near) {
+    const double amount = std::min(reached.free, 2 * (reached.free - Backdrop::kLeastFree));
+    if (!(amount > 0)) return;
+    chunk.holes |= std::uint32_t{1} << i;
+    chunk.amount[i] = static_cast<float>(amount);
+    std::copy_n(colour, 4, chunk.colour[i]);
+    return;
+  }
+  double behind = 0;
+  for (std::size_t l = near; l < count; ++l) behind += static_cast<double>(layers[l][at + kWeightLane]);
+  if (behind < Backdrop::kEnoughBehind * kUnit) return;
+  chunk.shows |= std::uint32_t{1} << i;
+  Combine<lanes>(layers + near, count - near, at, chunk.colour[i]);
+}
+
+// n <= kChunk pixels of layers that all have sums there, the first `near` of them in front of focus; these only where
+// `chunk` is not null. Returns false if a pixel had no weight.
 template <SampleType type, int lanes>
-bool ResolveChunk(const Accumulator* const* layers, std::size_t count, int n, void* pixels) {
+bool ResolveChunk(const Accumulator* const* layers, std::size_t count, std::size_t near, int n, void* pixels,
+                  Backdrop::Chunk* chunk) {
   const std::int64_t* sums[kMostLayers];
   for (std::size_t l = 0; l < count; ++l) sums[l] = reinterpret_cast<const std::int64_t*>(layers[l]);
   float colours[4 * kChunk] = {};
   bool all = true;
   for (int i = 0; i < n; ++i) {
-    all &= Combine<lanes>(sums, count, static_cast<std::size_t>(i) * lanes, colours + 4 * i);
+    const std::size_t at = static_cast<std::size_t>(i) * lanes;
+    const Reached reached = Combine<lanes>(sums, count, at, colours + 4 * i);
+    all &= reached.first <= reached.last;
+    if (chunk != nullptr) Look<lanes>(sums, count, near, at, reached, colours + 4 * i, i, *chunk);
   }
   Store(colours, n, static_cast<Pixel<type>*>(pixels));
   return all;
 }
 
-bool ResolveLayers(const Accumulator* const* layers, std::size_t count, int lanes, int n, SampleType type,
-                   void* pixels) {
+bool ResolveLayers(const Accumulator* const* layers, std::size_t count, std::size_t near, int lanes, int n,
+                   SampleType type, void* pixels, Backdrop::Chunk* chunk) {
   if (type == SampleType::half) {
-    return lanes == kOpaqueLanes ? ResolveChunk<SampleType::half, kOpaqueLanes>(layers, count, n, pixels)
-                                 : ResolveChunk<SampleType::half, kAlphaLanes>(layers, count, n, pixels);
+    return lanes == kOpaqueLanes ? ResolveChunk<SampleType::half, kOpaqueLanes>(layers, count, near, n, pixels, chunk)
+                                 : ResolveChunk<SampleType::half, kAlphaLanes>(layers, count, near, n, pixels, chunk);
   }
-  return lanes == kOpaqueLanes ? ResolveChunk<SampleType::float32, kOpaqueLanes>(layers, count, n, pixels)
-                               : ResolveChunk<SampleType::float32, kAlphaLanes>(layers, count, n, pixels);
+  return lanes == kOpaqueLanes ? ResolveChunk<SampleType::float32, kOpaqueLanes>(layers, count, near, n, pixels, chunk)
+                               : ResolveChunk<SampleType::float32, kAlphaLanes>(layers, count, near, n, pixels, chunk);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -215,27 +252,44 @@ void resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, c
   }
 }
 
+namespace {
+
+// Whether a layer in front of focus that is alone covers all pixels that it reaches.
+bool covers(const Accumulator* values, int lanes, int n) noexcept {
+  constexpr auto enough = static_cast<Accumulator>((1 - Backdrop::kLeastFree) * static_cast<double>(kCoveringWeight));
+  Accumulator least = std::numeric_limits<Accumulator>::max();
+  for (int i = 0; i < n; ++i) least = std::min(least, values[i * lanes + kWeightLane] - 1);  // 0 becomes the largest
+  return least >= enough;
+}
+
+}  // namespace
+
 void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
-                    const ColourImage& own, ColourImage& out) noexcept {
-  constexpr int chunk = 32;  // pixels that are looked at together
-  for (int x = x0; x < x1; x += chunk) {
-    const int n = std::min(chunk, x1 - x);
+                    const ColourImage& own, ColourImage& out, std::size_t near, Backdrop* backdrop) {
+  constexpr int chunk_width = Backdrop::kChunk;  // pixels that are looked at together
+  for (int x = x0; x < x1; x += chunk_width) {
+    const int n = std::min(chunk_width, x1 - x);
     const Accumulator* present[kMostLayers];
-    std::size_t count = 0;
-    for (const Accumulator* layer : layers) {
-      if (layer == nullptr) continue;
-      const Accumulator* values = layer + static_cast<std::ptrdiff_t>(x - x0) * lanes;
-      if (layers.size() == 1 || has_weight(values, lanes, n)) present[count++] = values;
+    std::size_t count = 0, in_front = 0;
+    for (std::size_t l = 0; l < layers.size(); ++l) {
+      if (layers[l] == nullptr) continue;
+      const Accumulator* values = layers[l] + static_cast<std::ptrdiff_t>(x - x0) * lanes;
+      if (layers.size() > 1 && !has_weight(values, lanes, n)) continue;
+      present[count++] = values;
+      in_front += l < near;
     }
-    if (count == 1) {
+    const bool looks = backdrop != nullptr && in_front > 0 && !(count == 1 && covers(present[0], lanes, n));
+    if (backdrop != nullptr && !looks) backdrop->take_none(x, y);
+    if (count == 1 && !looks) {
       resolve_span(present[0], lanes, x, x + n, y, own, out);
       continue;
     }
     const int column = out.window().x0 + x, row = out.window().y0 + y;
-    if (count > 0 &&
-        HWY_DYNAMIC_DISPATCH(ResolveLayers)(present, count, lanes, n, out.type(), out.pixel(column, row))) {
-      continue;
-    }
+    Backdrop::Chunk chunk;
+    const bool all = count > 0 && HWY_DYNAMIC_DISPATCH(ResolveLayers)(present, count, in_front, lanes, n, out.type(),
+                                                                      out.pixel(column, row), looks ? &chunk : nullptr);
+    if (looks) backdrop->take(x, y, chunk);
+    if (all) continue;
     for (int i = 0; i < n; ++i) {
       Accumulator any = 0;
       for (std::size_t l = 0; l < count; ++l) any |= present[l][i * lanes + kWeightLane];
@@ -244,10 +298,15 @@ void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x
   }
 }
 
-void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out) noexcept {
+void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out, int near,
+                  Backdrop* backdrop) {
   const Accumulator* layers[kMostLayers];
-  for (std::size_t l = 0; l < rows.size(); ++l) layers[l] = rows[l].values;
-  resolve_layers({layers, rows.size()}, lanes, 0, out.window().width(), y, own, out);
+  std::size_t in_front = 0;
+  for (std::size_t l = 0; l < rows.size(); ++l) {
+    layers[l] = rows[l].values;
+    in_front += rows[l].layer < near;
+  }
+  resolve_layers({layers, rows.size()}, lanes, 0, out.window().width(), y, own, out, in_front, backdrop);
 }
 
 }  // namespace pullfocus

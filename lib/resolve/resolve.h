@@ -4,6 +4,7 @@
 #include <span>
 
 #include "image/frame.h"
+#include "resolve/backdrop.h"
 #include "scatter/band.h"
 #include "scatter/kernel.h"
 #include "scatter/scatter.h"
@@ -32,11 +33,16 @@ inline constexpr std::int64_t kCoveringWeight = kWeightUnit / 16 * 15;
 // surface lets nothing through, a blurred one lets the rest through, and a surface that a layer's border cuts keeps its
 // whole weight. A pixel that one layer alone reaches is num / weight, with the bits that resolve_span() gives. At most
 // kMostLayers layers.
+//
+// The first `near` of the layers lie in front of focus. Where there is a `backdrop`, it is told of every pixel what is
+// seen behind them, in chunks from x0, a multiple of Backdrop::kChunk, on; its fill() is then to be called.
 inline constexpr std::size_t kMostLayers = 16;
 void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
-                    const ColourImage& own, ColourImage& out) noexcept;
+                    const ColourImage& own, ColourImage& out, std::size_t near = 0, Backdrop* backdrop = nullptr);
 
-// The whole row from rows as Scatter hands them over. Where no layer has a span a pixel has no weight.
-void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out) noexcept;
+// The whole row from rows as Scatter hands them over, those of layers below `near` in front of focus. Where no layer
+// has a span a pixel has no weight.
+void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out,
+                  int near = 0, Backdrop* backdrop = nullptr);
 
 }  // namespace pullfocus

@@ -36,6 +36,15 @@ Layers::Layers(const CocTable& coc, std::span<const double> borders) : offset_(c
   }
 }
 
+int Layers::near() const noexcept {
+  int near = 0;
+  for (const Range& range : ranges_) {
+    if (range.first <= range.last && range.last >= 0) break;
+    ++near;
+  }
+  return near;
+}
+
 namespace {
 
 struct Bounds {
