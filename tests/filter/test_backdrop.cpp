@@ -203,17 +203,19 @@ TEST(Backdrop, WhatChangesFarFromAHoleReachesItAndNothingElseDoes) {
   const Window window{3, -2, 230, 180};
   std::mt19937 random(4);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  Frame frame = bar_frame(window, {90, -2, 130, 180}, 70, {0.2f, 0.4f, 0.6f, 1});
-  for_each_in({3, 60, 230, 90}, [&](int x, int y) {
-    frame.depth.at(x, y) = -60;
+  Frame frame = bar_frame(window, {60, -2, 170, 180}, 220, {0.2f, 0.4f, 0.6f, 1});
+  for_each_in({3, 50, 230, 112}, [&](int x, int y) {
+    frame.depth.at(x, y) = -78;
     set_colour(frame.colour, x, y, {0, 1, 0, 1});
   });
-  IncrementalFilter incremental(window, with_layers(80));
-  LinearFilter linear(window, with_layers(80));
+  IncrementalFilter incremental(window, with_layers(220));
+  LinearFilter linear(window, with_layers(220));
   for (int step = 0; step < 60; ++step) {
     const int x0 = window.x0 + below(225), y0 = window.y0 + below(178);
-    const Window patch = intersect({x0, y0, x0 + 1 + below(12), y0 + 1 + below(12)}, window);
-    const bool moves = below(5) == 0;
+    Window patch = intersect({x0, y0, x0 + 1 + below(12), y0 + 1 + below(12)}, window);
+    if (step % 2) patch.x0 = step % 4 == 1 ? 58 : 170;  // beside the bar, in the background
+    if (step % 2) patch.x1 = patch.x0 + 2;
+    const bool moves = step % 2 == 0 && below(5) == 0;
     for_each_in(patch, [&](int x, int y) {
       if (moves) frame.depth.at(x, y) = below(2) ? 0 : -50;
       set_colour(frame.colour, x, y, {static_cast<float>(below(100)) / 100, 0.5f, 0, 1});
