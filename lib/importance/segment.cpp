@@ -28,17 +28,19 @@ HWY_INLINE hn::Vec<D> LensDiameters(D d, const CocFunction& coc, hn::Vec<D> dept
   }
 }
 
-// A background of kind coc has diameter 0, which no factor changes.
-template <DepthKind kind, class D>
+// A background of kind coc has diameter 0, which no factor changes. Factors of 1 are left out: finding what changed would
+// be slower for them.
+template <DepthKind kind, bool scaled, class D>
 HWY_INLINE hn::Vec<D> Diameters(D d, const CocFunction& coc, hn::Vec<D> depth) {
   const auto zero = hn::Zero(d), c = LensDiameters<kind>(d, coc, depth);
+  if constexpr (!scaled) return c;
   const auto factor =
       hn::IfThenElse(hn::Lt(c, zero), hn::Set(d, coc.artistic.in_front), hn::Set(d, coc.artistic.behind));
   return hn::IfThenElseZero(hn::Ne(factor, zero), hn::Mul(c, factor));
 }
 
 // `count` depths, a multiple of the vector length, of which the first n count in the findings' sum.
-template <DepthKind kind, bool partial>
+template <DepthKind kind, bool scaled, bool partial>
 HWY_INLINE SegmentFindings IndexVectors(const DepthToIndex& to_index, const float* depth, int count, int n,
                                         std::int16_t* index) {
   const hn::CappedTag<float, kTileWidth> d;
@@ -53,7 +55,7 @@ HWY_INLINE SegmentFindings IndexVectors(const DepthToIndex& to_index, const floa
   for (int i = 0; i < count; i += lanes) {
     const auto z = hn::LoadU(d, depth + i);
     sane = hn::And(sane, hn::RebindMask(di, hn::Gt(z, suspect_to)));
-    const auto c = Diameters<kind>(d, to_index.coc, z);
+    const auto c = Diameters<kind, scaled>(d, to_index.coc, z);
     const auto size = hn::Abs(c);
     auto is_clamped = hn::RebindMask(di, hn::Gt(size, max_diameter));
     if constexpr (partial)
@@ -69,22 +71,28 @@ HWY_INLINE SegmentFindings IndexVectors(const DepthToIndex& to_index, const floa
   return {hn::GetLane(hn::SumOfLanes(di, clamped)), hn::GetLane(hn::MaxOfLanes(di, largest)), !hn::AllTrue(di, sane)};
 }
 
-template <DepthKind kind>
+template <DepthKind kind, bool scaled>
 HWY_INLINE SegmentFindings Index(const DepthToIndex& to_index, const float* depth, int n, std::int16_t* index) {
-  if (n == kTileWidth) return IndexVectors<kind, false>(to_index, depth, n, n, index);
+  if (n == kTileWidth) return IndexVectors<kind, scaled, false>(to_index, depth, n, n, index);
   // Vectors past the end repeat the first pixel, which changes neither the largest index nor what is suspect.
   float padded[kTileWidth];
   std::copy_n(depth, n, padded);
   std::fill(padded + n, padded + kTileWidth, depth[0]);
   std::int16_t out[kTileWidth];
-  const SegmentFindings findings = IndexVectors<kind, true>(to_index, padded, kTileWidth, n, out);
+  const SegmentFindings findings = IndexVectors<kind, scaled, true>(to_index, padded, kTileWidth, n, out);
   std::copy_n(out, n, index);
   return findings;
 }
 
 SegmentFindings SignedIndices(const DepthToIndex& to_index, const float* depth, int n, std::int16_t* index) {
-  return to_index.coc.kind == DepthKind::coc ? Index<DepthKind::coc>(to_index, depth, n, index)
-                                             : Index<DepthKind::planar>(to_index, depth, n, index);
+  const CocScale& artistic = to_index.coc.artistic;
+  const bool coc = to_index.coc.kind == DepthKind::coc;
+  if (artistic.in_front == 1 && artistic.behind == 1) {
+    return coc ? Index<DepthKind::coc, false>(to_index, depth, n, index)
+               : Index<DepthKind::planar, false>(to_index, depth, n, index);
+  }
+  return coc ? Index<DepthKind::coc, true>(to_index, depth, n, index)
+             : Index<DepthKind::planar, true>(to_index, depth, n, index);
 }
 
 // True if two runs of `bytes` bytes are equal.
