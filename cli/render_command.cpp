@@ -110,16 +110,18 @@ Job shot_job(const Arguments& a) {
     };
   } else if (a.truth > 0 || a.views > 0) {
     job.name += a.truth > 0 ? ".truth" : ".views";
-    job.write = [=, image = std::make_shared<ColourImage>()](int number, const std::string& path) {
+    job.write = [=, image = std::make_shared<ColourImage>(), still = std::make_shared<sequences::StillPixels>()](
+                    int number, const std::string& path) {
       if (a.truth > 0)
-        renderer->truth(number, a.truth, *image);
+        renderer->truth(number, a.truth, *image, still.get());
       else
         renderer->truth_of_views(number, a.views, *image);
       write_truth(path, taken(number), *image);
     };
   } else {
-    job.write = [=, frame = std::make_shared<Frame>()](int number, const std::string& path) {
-      renderer->render(number, a.samples, *frame);
+    job.write = [=, frame = std::make_shared<Frame>(), still = std::make_shared<sequences::StillPixels>()](
+                    int number, const std::string& path) {
+      renderer->render(number, a.samples, *frame, still.get());
       write_picture_and_depth(path, taken(number), *frame);
     };
   }

@@ -33,6 +33,12 @@ FrameCamera::FrameCamera(const glm::mat4& world, const ThinLens& lens, const Ras
   inverse_focus_ = static_cast<float>(1 / lens.focus_distance);
 }
 
+FrameCamera FrameCamera::pinhole() const noexcept {
+  FrameCamera camera = *this;
+  camera.lens_radius_ = camera.inverse_focus_ = 0;
+  return camera;
+}
+
 Ray FrameCamera::ray(glm::vec2 pixel, glm::vec2 lens_point) const noexcept {
   const glm::vec2 lens = lens_radius_ * lens_point;
   const glm::vec2 film((pixel.x - centre_.x) * film_per_pixel_, (centre_.y - pixel.y) * film_per_pixel_);

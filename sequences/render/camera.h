@@ -29,6 +29,9 @@ class FrameCamera {
   // pinhole.
   Ray ray(glm::vec2 pixel, glm::vec2 lens_point) const noexcept;
 
+  FrameCamera pinhole() const noexcept;                 // the same without a lens: whatever the focus
+  bool operator==(const FrameCamera&) const = default;  // the same rays
+
  private:
   glm::vec3 position_{0}, right_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, -1};
   float film_per_pixel_ = 0;  // size of a pixel at depth 1

@@ -30,13 +30,15 @@ void attach(RTCDevice device, RTCScene scene, const PlacedMesh& placed) {
   rtcReleaseGeometry(geometry);
 }
 
-void set_ray(RTCRay& to, const glm::vec3& origin, const glm::vec3& direction, float from, float end) {
-  to = {};
-  to.org_x = origin.x, to.org_y = origin.y, to.org_z = origin.z;
-  to.dir_x = direction.x, to.dir_y = direction.y, to.dir_z = direction.z;
-  to.tnear = from;
-  to.tfar = end;
-  to.mask = ~0u;
+void set_ray(RTCRay16& to, std::size_t i, const glm::vec3& origin, const glm::vec3& direction, float from, float end) {
+  to.org_x[i] = origin.x, to.org_y[i] = origin.y, to.org_z[i] = origin.z;
+  to.dir_x[i] = direction.x, to.dir_y[i] = direction.y, to.dir_z[i] = direction.z;
+  to.tnear[i] = from;
+  to.tfar[i] = end;
+  to.time[i] = 0;
+  to.mask[i] = ~0u;
+  to.id[i] = 0;
+  to.flags[i] = 0;
 }
 
 template <class Value>
@@ -44,23 +46,24 @@ Value between(const std::vector<Value>& values, const std::array<std::uint32_t, 
   return (1 - u - v) * values[corner[0]] + u * values[corner[1]] + v * values[corner[2]];
 }
 
-void fill(const PlacedMesh& placed, const RTCHit& hit, const Ray& ray, Surface& surface) {
-  const std::array<std::uint32_t, 3>& corner = placed.mesh->triangles[hit.primID];
+void fill(const PlacedMesh& placed, const RTCHit16& hits, std::size_t i, const Ray& ray, Surface& surface) {
+  const std::array<std::uint32_t, 3>& corner = placed.mesh->triangles[hits.primID[i]];
+  const float u = hits.u[i], v = hits.v[i];
   surface.material = &placed.mesh->material;
   surface.position = ray.origin + surface.depth * ray.direction;
-  surface.facet_normal = glm::normalize(glm::vec3(hit.Ng_x, hit.Ng_y, hit.Ng_z));
+  surface.facet_normal = glm::normalize(glm::vec3(hits.Ng_x[i], hits.Ng_y[i], hits.Ng_z[i]));
   if (glm::dot(surface.facet_normal, ray.direction) > 0) surface.facet_normal = -surface.facet_normal;
   surface.normal = surface.facet_normal;
   if (!placed.normals.empty()) {
-    const glm::vec3 normal = between(placed.normals, corner, hit.u, hit.v);
+    const glm::vec3 normal = between(placed.normals, corner, u, v);
     const float length = glm::length(normal);
     if (length > 1e-6f) surface.normal = normal / length;
     if (glm::dot(surface.normal, surface.facet_normal) < 0) surface.normal = -surface.normal;
   }
   const Mesh& mesh = *placed.mesh;
-  surface.uv = mesh.uvs.empty() ? glm::vec2(0) : between(mesh.uvs, corner, hit.u, hit.v);
-  surface.colour = mesh.colours.empty() ? glm::vec3(1) : between(mesh.colours, corner, hit.u, hit.v);
-  surface.openness = placed.openness.empty() ? 1 : between(placed.openness, corner, hit.u, hit.v);
+  surface.uv = mesh.uvs.empty() ? glm::vec2(0) : between(mesh.uvs, corner, u, v);
+  surface.colour = mesh.colours.empty() ? glm::vec3(1) : between(mesh.colours, corner, u, v);
+  surface.openness = placed.openness.empty() ? 1 : between(placed.openness, corner, u, v);
 }
 
 }  // namespace
@@ -89,18 +92,11 @@ Intersector::Intersector(const Device& device, std::vector<PlacedMesh> meshes)
     : device_(device), meshes_(std::move(meshes)), scene_(rtcNewScene(device.get())) {
   // Without robust intersection rays along edges miss.
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  low_ = glm::vec3(std::numeric_limits<float>::max());
-  high_ = -low_;
   for (const PlacedMesh& mesh : meshes_) {
     attach(device_.get(), scene_, mesh);
-    for (const glm::vec3& p : mesh.positions) {
-      low_ = glm::min(low_, p);
-      high_ = glm::max(high_, p);
-    }
+    for (const glm::vec3& p : mesh.positions) box_.add(p);
   }
-  const glm::vec3 margin = 1e-4f * (high_ - low_ + glm::abs(low_) + glm::abs(high_));
-  low_ -= margin;
-  high_ += margin;
+  box_ = box_.with_margin();
   // One thread, because the tree decides which of two triangles a ray on their common edge meets.
   tbb::task_arena(1).execute([&] { rtcCommitScene(scene_); });
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
@@ -109,45 +105,32 @@ Intersector::Intersector(const Device& device, std::vector<PlacedMesh> meshes)
   }
 }
 
-// Spares most rays the call where few things move. Comparisons with NaN (origin on the box's plane, direction along it)
-// are false, and leave the interval as it is.
-bool Intersector::misses(const glm::vec3& origin, const glm::vec3& direction, float to) const noexcept {
-  if (meshes_.empty()) return true;
-  float enter = 0, leave = to;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float inverse = 1 / direction[axis];
-    float first = (low_[axis] - origin[axis]) * inverse, last = (high_[axis] - origin[axis]) * inverse;
-    if (inverse < 0) std::swap(first, last);
-    if (first > enter) enter = first;
-    if (last < leave) leave = last;
-  }
-  return !(enter <= leave);
-}
-
 Intersector::~Intersector() { rtcReleaseScene(scene_); }
 
-bool Intersector::nearest(const Ray& ray, float from, float to, Surface& surface) const {
-  if (misses(ray.origin, ray.direction, to)) return false;
-  RTCRayHit query;
-  set_ray(query.ray, ray.origin, ray.direction, from, to);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+void Intersector::nearest(std::span<const Ray> rays, const Mask& mask, float from, std::span<Surface> surfaces) const {
+  RTCRayHit16 query;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    set_ray(query.ray, i, rays[i].origin, rays[i].direction, from, surfaces[i].depth);
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_, &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  surface.depth = query.ray.tfar;
-  fill(meshes_[query.hit.geomID], query.hit, ray, surface);
-  return true;
+  rtcIntersect16(mask.lanes.data(), scene_, &context, &query);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (mask.lanes[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    surfaces[i].depth = query.ray.tfar[i];
+    fill(meshes_[query.hit.geomID[i]], query.hit, i, rays[i], surfaces[i]);
+  }
 }
 
-bool Intersector::blocked(const glm::vec3& origin, const glm::vec3& direction, float to) const {
-  if (misses(origin, direction, to)) return false;
-  RTCRay query;
-  set_ray(query, origin, direction, 0, to);
+void Intersector::blocked(std::span<const ShadowRay> rays, Mask& mask) const {
+  RTCRay16 query;
+  for (std::size_t i = 0; i < rays.size(); ++i) set_ray(query, i, rays[i].origin, rays[i].direction, 0, rays[i].to);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_, &context, &query);
-  return query.tfar < 0;
+  rtcOccluded16(mask.lanes.data(), scene_, &context, &query);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (query.tfar[i] < 0) mask.lanes[i] = 0;
 }
 
 }  // namespace pullfocus::sequences

@@ -3,11 +3,14 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "render/box.h"
 #include "render/camera.h"
 #include "render/scene.h"
 
@@ -22,7 +25,7 @@ struct PlacedMesh {
   std::vector<float> openness;                // 0 .. 1 a vertex: share of the sky that nothing near hides; empty: 1
 };
 
-// A surface that a ray meets.
+// A surface that a ray meets; without material: none.
 struct Surface {
   const Material* material = nullptr;
   float depth = 0;  // ray parameter
@@ -31,6 +34,19 @@ struct Surface {
   glm::vec2 uv{0};
   glm::vec3 colour{1};
   float openness = 1;
+};
+
+// From a surface towards a light.
+struct ShadowRay {
+  glm::vec3 origin{0}, direction{0};
+  float to = 0;  // ray parameter
+};
+
+// Rays go in packets of at most this many. Which bits a ray gets may depend on the others in its packet, so packets
+// must be made of the same rays whenever the same bits are wanted.
+inline constexpr std::size_t packet_size = 16;
+struct alignas(64) Mask {
+  std::array<int, packet_size> lanes{};  // -1: do, 0: leave
 };
 
 using Device = std::shared_ptr<RTCDeviceTy>;
@@ -45,20 +61,20 @@ class Intersector {
   Intersector(const Intersector&) = delete;
   Intersector& operator=(const Intersector&) = delete;
 
-  // The nearest surface beyond `from` and nearer than `to`, in ray parameters.
-  bool nearest(const Ray& ray, float from, float to, Surface& surface) const;
-  bool blocked(const glm::vec3& origin, const glm::vec3& direction, float to) const;
+  // Of every ray in `mask` the nearest surface beyond ray parameter `from`, if it is nearer than surfaces[i].depth.
+  void nearest(std::span<const Ray> rays, const Mask& mask, float from, std::span<Surface> surfaces) const;
+  // Takes those that something blocks out of `mask`.
+  void blocked(std::span<const ShadowRay> rays, Mask& mask) const;
 
   const std::vector<PlacedMesh>& meshes() const noexcept { return meshes_; }
   std::vector<PlacedMesh>& meshes() noexcept { return meshes_; }  // of which only openness may change
+  const Box& box() const noexcept { return box_; }                // around everything, with a margin
 
  private:
-  bool misses(const glm::vec3& origin, const glm::vec3& direction, float to) const noexcept;
-
   Device device_;
   std::vector<PlacedMesh> meshes_;
   RTCScene scene_ = nullptr;
-  glm::vec3 low_, high_;  // a box around everything, a little larger than it need be
+  Box box_;
 };
 
 }  // namespace pullfocus::sequences

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -17,11 +19,20 @@ float openness_at(const World& world, const glm::vec3& position, const glm::vec3
   const glm::vec3 side = std::abs(normal.x) > 0.6f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
   const glm::vec3 u = glm::normalize(glm::cross(side, normal)), v = glm::cross(normal, u);
   const glm::vec3 start = position + 4 * world.shadow_offset * normal;
-  int open = 0;
-  for (std::size_t i = 0; i < pattern.size(); ++i) {
-    const glm::vec2 p = concentric_disc(pattern.lens(i, seed));  // projected hemisphere: cosine-weighted
-    const float height = std::sqrt(std::max(0.0f, 1 - glm::dot(p, p)));
-    if (!world.blocked(start, p.x * u + p.y * v + height * normal, reach)) ++open;
+  std::ptrdiff_t open = 0;
+  bool touched = false;
+  for (std::size_t first = 0; first < pattern.size(); first += packet_size) {
+    std::array<ShadowRay, packet_size> rays;
+    Mask mask;
+    const std::size_t count = std::min(packet_size, pattern.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::vec2 p = concentric_disc(pattern.lens(first + i, seed));  // projected hemisphere: cosine-weighted
+      const float height = std::sqrt(std::max(0.0f, 1 - glm::dot(p, p)));
+      rays[i] = {start, p.x * u + p.y * v + height * normal, reach};
+      mask.lanes[i] = -1;
+    }
+    world.blocked(std::span(rays).first(count), mask, touched);
+    open += std::ranges::count(mask.lanes, -1);
   }
   return static_cast<float>(open) / static_cast<float>(pattern.size());
 }

@@ -4,12 +4,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "render/openness.h"
+#include "render/placing.h"
 #include "render/pose.h"
 #include "render/sampling.h"
 
@@ -20,58 +21,6 @@ constexpr float largest_half = 65504;
 constexpr int tile = 16;               // pixels a side of a task
 constexpr float same_surface = 1e-5f;  // hits nearer together than this share of their depth are one
 constexpr std::size_t deepest = 1000;  // surfaces along a ray
-
-struct Box {
-  glm::vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
-
-  void add(const std::vector<PlacedMesh>& meshes) {
-    for (const PlacedMesh& mesh : meshes)
-      for (const glm::vec3& p : mesh.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-      }
-  }
-  bool empty() const { return !(low.x <= high.x); }
-  float diagonal() const { return empty() ? 1 : glm::length(high - low); }
-};
-
-// Meshes of the nodes whose flag in `moves` is `moving`.
-std::vector<PlacedMesh> place(const Shot& shot, const std::vector<char>& moves, bool moving,
-                              const std::vector<glm::mat4>& world) {
-  std::vector<PlacedMesh> meshes;
-  for (std::size_t i = 0; i < shot.scene.nodes.size(); ++i) {
-    if (shot.hidden[i] || (moves[i] != 0) != moving) continue;
-    for (const int mesh : shot.scene.nodes[i].meshes)
-      meshes.emplace_back(shot.scene.meshes[static_cast<std::size_t>(mesh)], world[i]);
-  }
-  return meshes;
-}
-
-std::vector<PlacedLight> place_lights(const Shot& shot, int frame, const std::vector<glm::mat4>& world) {
-  std::vector<PlacedLight> lights;
-  for (std::size_t i = 0; i < shot.scene.nodes.size(); ++i) {
-    const Node& node = shot.scene.nodes[i];
-    if (node.light < 0 || shot.hidden[i]) continue;
-    const glm::vec3 forward = -glm::vec3(world[i][2]);
-    const float length = glm::length(forward);
-    lights.push_back({shot.scene.lights[static_cast<std::size_t>(node.light)], glm::vec3(world[i][3]),
-                      length > 0 ? forward / length : glm::vec3(0, -1, 0)});
-  }
-  for (const KeyedLight& keyed : shot.lights) {
-    lights.push_back(keyed.light);
-    lights.back().direction = glm::normalize(keyed.light.direction);
-    lights.back().light.intensity *= static_cast<float>(keyed.intensity.linear_at(frame));
-  }
-  return lights;
-}
-
-// Stands in front of everything, for scenes without a camera.
-glm::mat4 outside(const Box& box, double vertical_fov) {
-  const glm::vec3 centre = box.empty() ? glm::vec3(0) : 0.5f * (box.low + box.high);
-  const float distance = 0.55f * box.diagonal() / std::sin(static_cast<float>(vertical_fov) / 2);
-  const glm::vec3 eye = centre + distance * glm::normalize(glm::vec3(0.35f, 0.3f, 1));
-  return glm::inverse(glm::lookAt(eye, centre, glm::vec3(0, 1, 0)));
-}
 
 template <class Work>
 void for_pixels(const Raster& raster, const Work& work) {
@@ -103,21 +52,39 @@ struct ShotRenderer::Stage {
   Stage(const FrameCamera& frame_camera, std::unique_ptr<Intersector> moving_meshes)
       : camera(frame_camera), moving(std::move(moving_meshes)) {}
 
-  glm::vec3 colour(const Ray& ray) const {
-    Surface surface;
-    return scale * (world.nearest(ray, 0, surface) ? shade(world, lighting, surface, ray.direction)
-                                                   : lighting.sky.radiance(ray.direction));
+  // Colours that at most packet_size rays bring.
+  void colours(std::span<const Ray> rays, std::span<glm::vec3> out, bool& touched) const {
+    std::array<Surface, packet_size> surfaces;
+    const auto met = std::span(surfaces).first(rays.size());
+    world.nearest(rays, 0, met, touched);
+    shade(world, lighting, rays, met, out, touched);
   }
 
   // Mean colour of a pixel; on the lens or, if not `through_lens`, at its middle.
-  glm::vec3 pixel(int x, int y, const SamplePattern& pattern, std::uint32_t seed, bool through_lens) const {
+  glm::vec3 pixel(int x, int y, const SamplePattern& pattern, std::uint32_t seed, bool through_lens,
+                  bool& touched) const {
     glm::dvec3 sum(0);
     const glm::vec2 corner(x, y);
-    for (std::size_t i = 0; i < pattern.size(); ++i) {
-      const glm::vec2 lens = through_lens ? concentric_disc(pattern.lens(i, seed)) : glm::vec2(0);
-      sum += colour(camera.ray(corner + pattern.pixel(i, seed), lens));
+    std::array<Ray, packet_size> rays;
+    std::array<glm::vec3, packet_size> colour;
+    for (std::size_t first = 0; first < pattern.size(); first += packet_size) {
+      const std::size_t count = std::min(packet_size, pattern.size() - first);
+      for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec2 lens = through_lens ? concentric_disc(pattern.lens(first + i, seed)) : glm::vec2(0);
+        rays[i] = camera.ray(corner + pattern.pixel(first + i, seed), lens);
+      }
+      colours(std::span(rays).first(count), colour, touched);
+      for (std::size_t i = 0; i < count; ++i) sum += scale * colour[i];
     }
     return sum / static_cast<double>(pattern.size());
+  }
+
+  // Planar depth of what the pixel's middle shows.
+  float depth(int x, int y, bool& touched) const {
+    const Ray ray = camera.ray(glm::vec2(x, y) + 0.5f, {0, 0});
+    Surface surface;
+    world.nearest({&ray, 1}, 0, {&surface, 1}, touched);
+    return std::min(surface.depth, sky_depth);
   }
 
   FrameCamera camera;
@@ -134,14 +101,23 @@ ShotRenderer::ShotRenderer(Shot shot, int width, int height)
   still_ = std::make_unique<Intersector>(device_, place(shot_, moves_, false, world));
   const Intersector moving(device_, place(shot_, moves_, true, world));
   if (shot_.ambient_reach > 0) measure_openness(moving);
+  reach_ = reach_of_moving();
+}
+
+Box ShotRenderer::reach_of_moving() const {
+  Box box;
+  if (std::ranges::none_of(moves_, [](char moves) { return moves != 0; })) return box;
+  constexpr int most_frames = 1000;  // of longer shots, only these will reuse pixels
+  for (int frame = shot_.first_frame; frame <= shot_.last_frame && frame < shot_.first_frame + most_frames; ++frame)
+    box.add(
+        box_of(place(shot_, moves_, true, world_matrices(shot_.scene, shot_.animations, frame_time(shot_, frame)))));
+  return box.with_margin().with_margin();
 }
 
 ShotRenderer::~ShotRenderer() = default;
 
 void ShotRenderer::measure_openness(const Intersector& moving) {
-  Box box;
-  box.add(still_->meshes());
-  const World world{still_.get(), &moving, &shot_.scene.textures, 1e-5f * box.diagonal()};
+  const World world{still_.get(), &moving, &shot_.scene.textures, 1e-5f * box_of(still_->meshes()).diagonal(), {}};
   std::vector<std::vector<float>> still;
   for (const PlacedMesh& mesh : still_->meshes()) still.push_back(openness(world, mesh, shot_.ambient_reach));
   for (const PlacedMesh& mesh : moving.meshes()) openness_.push_back(openness(world, mesh, shot_.ambient_reach));
@@ -151,11 +127,10 @@ void ShotRenderer::measure_openness(const Intersector& moving) {
 FrameCamera ShotRenderer::camera(int frame, const std::vector<glm::mat4>& world) const {
   const int node = camera_node(shot_, frame);
   if (node >= 0) return {world[static_cast<std::size_t>(node)], lens(frame).lens, raster_};
-  Box box;
-  box.add(still_->meshes());
   const ThinLens frame_lens = lens(frame).lens;
-  return {outside(box, 2 * std::atan(lens(frame).sensor_height_mm / 2 / frame_lens.focal_length_mm)), frame_lens,
-          raster_};
+  return {
+      outside(box_of(still_->meshes()), 2 * std::atan(lens(frame).sensor_height_mm / 2 / frame_lens.focal_length_mm)),
+      frame_lens, raster_};
 }
 
 std::unique_ptr<ShotRenderer::Stage> ShotRenderer::stage(int frame) const {
@@ -163,44 +138,78 @@ std::unique_ptr<ShotRenderer::Stage> ShotRenderer::stage(int frame) const {
   auto moving = std::make_unique<Intersector>(device_, place(shot_, moves_, true, world));
   for (std::size_t i = 0; i < openness_.size(); ++i) moving->meshes()[i].openness = openness_[i];
   auto result = std::make_unique<Stage>(camera(frame, world), std::move(moving));
-  Box box;
-  box.add(still_->meshes());
-  if (box.empty()) box.add(result->moving->meshes());
-  result->world = {still_.get(), result->moving.get(), &shot_.scene.textures, 1e-5f * box.diagonal()};
+  Box box = box_of(still_->meshes());
+  if (box.empty()) box = box_of(result->moving->meshes());
+  result->world = {still_.get(), result->moving.get(), &shot_.scene.textures, 1e-5f * box.diagonal(), reach_};
+  if (!reach_.holds(result->moving->box())) result->world.reach = {};  // a frame outside the shot
   result->lighting = {place_lights(shot_, frame, world), shot_.sky, shot_.ambient_top, shot_.ambient_bottom};
   result->scale = static_cast<float>(std::exp2(shot_.exposure));
   return result;
 }
 
-void ShotRenderer::render(int frame, int samples, Frame& out) const {
+template <class Draw, class Store>
+void ShotRenderer::draw(const Stage& now, const StillPixels::Setting& setting, StillPixels* still,
+                        const Draw& draw_pixel, const Store& store_pixel) const {
+  const bool within = reach_.holds(now.moving->box());
+  if (still && (still->setting != setting || !within)) {
+    still->setting = within ? std::optional(setting) : std::nullopt;
+    still->pixels.assign(static_cast<std::size_t>(raster_.width) * static_cast<std::size_t>(raster_.height), {});
+  }
+  for_pixels(raster_, [&](int x, int y) {
+    StillPixels::Pixel fresh;
+    StillPixels::Pixel& pixel =
+        still ? still->pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.width) +
+                              static_cast<std::size_t>(x)]
+              : fresh;
+    if (!pixel.still) {
+      bool touched = !within;
+      draw_pixel(x, y, pixel, touched);
+      pixel.still = !touched;
+    }
+    store_pixel(x, y, pixel);
+  });
+}
+
+void ShotRenderer::render(int frame, int samples, Frame& out, StillPixels* still) const {
   const auto now = stage(frame);
   const Window window{0, 0, raster_.width, raster_.height};
   out.colour.reset(window, SampleType::half);
   out.depth.reset(window, sky_depth);
   out.has_alpha = false;
   const SamplePattern pattern(samples);
-  for_pixels(raster_, [&](int x, int y) {
-    glm::vec3 colour = now->pixel(x, y, pattern, pixel_seed(x, y), false);
-    if (shot_.noise > 0) colour *= noise_factor(shot_.noise, x, y, frame);
-    store(out.colour, x, y, colour);
-    Surface surface;
-    if (now->world.nearest(now->camera.ray(glm::vec2(x, y) + 0.5f, {0, 0}), 0, surface))
-      out.depth.at(x, y) = std::min(surface.depth, sky_depth);
-  });
+  draw(
+      *now, {now->camera.pinhole(), now->lighting, samples, false}, still,
+      [&](int x, int y, StillPixels::Pixel& pixel, bool& touched) {
+        pixel.colour = now->pixel(x, y, pattern, pixel_seed(x, y), false, touched);
+        pixel.depth = now->depth(x, y, touched);
+      },
+      [&](int x, int y, const StillPixels::Pixel& pixel) {
+        const float noise = shot_.noise > 0 ? noise_factor(shot_.noise, x, y, frame) : 1;
+        store(out.colour, x, y, noise * pixel.colour);
+        out.depth.at(x, y) = pixel.depth;
+      });
 }
 
-void ShotRenderer::truth(int frame, int samples, ColourImage& out) const {
+void ShotRenderer::truth(int frame, int samples, ColourImage& out, StillPixels* still) const {
   const auto now = stage(frame);
   out.reset({0, 0, raster_.width, raster_.height}, SampleType::float32);
   const SamplePattern pattern(samples);
-  for_pixels(raster_, [&](int x, int y) { store(out, x, y, now->pixel(x, y, pattern, pixel_seed(x, y), true)); });
+  draw(
+      *now, {now->camera, now->lighting, samples, true}, still,
+      [&](int x, int y, StillPixels::Pixel& pixel, bool& touched) {
+        pixel.colour = now->pixel(x, y, pattern, pixel_seed(x, y), true, touched);
+      },
+      [&](int x, int y, const StillPixels::Pixel& pixel) { store(out, x, y, pixel.colour); });
 }
 
 void ShotRenderer::truth_of_views(int frame, int views, ColourImage& out) const {
   const auto now = stage(frame);
   out.reset({0, 0, raster_.width, raster_.height}, SampleType::float32);
   const SamplePattern pattern(views);
-  for_pixels(raster_, [&](int x, int y) { store(out, x, y, now->pixel(x, y, pattern, 0, true)); });
+  for_pixels(raster_, [&](int x, int y) {
+    bool touched = false;
+    store(out, x, y, now->pixel(x, y, pattern, 0, true, touched));
+  });
 }
 
 void ShotRenderer::deep(int frame, DeepPixels& out) const {
@@ -213,8 +222,15 @@ void ShotRenderer::deep(int frame, DeepPixels& out) const {
     const Ray ray = now->camera.ray(glm::vec2(x, y) + 0.5f, {0, 0});
     float from = 0;
     Surface surface;
-    while (samples.size() < deepest && now->world.nearest(ray, from, surface) && surface.depth < sky_depth) {
-      samples.push_back({surface.depth, now->scale * shade(now->world, now->lighting, surface, ray.direction)});
+    bool touched = false;
+    const auto found = [&] {
+      now->world.nearest({&ray, 1}, from, {&surface, 1}, touched);
+      return surface.material != nullptr && surface.depth < sky_depth;
+    };
+    while (samples.size() < deepest && found()) {
+      glm::vec3 colour;
+      shade(now->world, now->lighting, {&ray, 1}, {&surface, 1}, {&colour, 1}, touched);
+      samples.push_back({surface.depth, now->scale * colour});
       from = surface.depth * (1 + same_surface);
     }
     samples.push_back({sky_depth, now->scale * now->lighting.sky.radiance(ray.direction)});

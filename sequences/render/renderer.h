@@ -12,6 +12,7 @@
 #include "image/frame.h"
 #include "render/intersector.h"
 #include "render/shot.h"
+#include "render/still_pixels.h"
 
 namespace pullfocus::sequences {
 
@@ -39,12 +40,13 @@ class ShotRenderer {
   FrameLens lens(int frame) const { return frame_lens(shot_, frame, raster_.width, raster_.height); }
 
   // The pinhole picture: half RGB (A = 1, has_alpha false), mean of `samples` >= 1 a pixel; planar depth in metres of
-  // what the pixel's centre shows, or sky_depth.
-  void render(int frame, int samples, Frame& out) const;
+  // what the pixel's centre shows, or sky_depth. With `still`, pixels are taken from there where that makes no
+  // difference.
+  void render(int frame, int samples, Frame& out, StillPixels* still = nullptr) const;
 
   // Through the lens: float RGB, mean of `samples` >= 1 a pixel, each from a point of its own on the lens, stratified
   // over lens and pixel (R. Cook et al., "Distributed Ray Tracing", 1984). Without the shot's noise.
-  void truth(int frame, int samples, ColourImage& out) const;
+  void truth(int frame, int samples, ColourImage& out, StillPixels* still = nullptr) const;
 
   // The same as a mean of whole pinhole pictures from `views` >= 1 points of the lens (P. Haeberli and K. Akeley, "The
   // Accumulation Buffer", 1990): all pixels share their lens points.
@@ -56,6 +58,10 @@ class ShotRenderer {
   struct Stage;  // one frame, ready for rays
   std::unique_ptr<Stage> stage(int frame) const;
   void measure_openness(const Intersector& moving);
+  Box reach_of_moving() const;
+  template <class Draw, class Store>
+  void draw(const Stage& now, const StillPixels::Setting& setting, StillPixels* still, const Draw& draw_pixel,
+            const Store& store_pixel) const;
   FrameCamera camera(int frame, const std::vector<glm::mat4>& world) const;
 
   Shot shot_;
@@ -63,6 +69,7 @@ class ShotRenderer {
   Device device_;
   std::vector<char> moves_;                   // a flag a node
   std::unique_ptr<Intersector> still_;        // meshes that no animation moves
+  Box reach_;                                 // around the others, in all frames of the shot
   std::vector<std::vector<float>> openness_;  // of the moving ones, in their order
 };
 

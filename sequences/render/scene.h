@@ -49,6 +49,7 @@ struct Light {
   glm::vec3 intensity{1};
   float inner_cone = 0, outer_cone = 0.785398f;  // of spots
   bool casts_shadow = true;
+  bool operator==(const Light&) const = default;
 };
 
 struct Transform {

@@ -1,6 +1,7 @@
 #include "render/shading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -55,21 +56,38 @@ Arrival arrival(const PlacedLight& placed, const glm::vec3& position) {
   return result;
 }
 
-glm::vec3 direct(const World& world, const Lighting& lighting, const Surface& surface, const Reflection& r,
-                 const glm::vec3& mirrored) {
-  glm::vec3 sum(0);
-  for (const PlacedLight& light : lighting.lights) {
-    const Arrival from = arrival(light, surface.position);
-    const float slant = glm::dot(surface.normal, from.towards);
-    if (!(slant > 0) || !(glm::dot(surface.facet_normal, from.towards) > 0)) continue;
-    if (light.light.casts_shadow && world.blocked(surface.position + world.shadow_offset * surface.facet_normal,
-                                                  from.towards, from.distance - 2 * world.shadow_offset))
-      continue;
-    const float aligned = glm::dot(mirrored, from.towards);
-    const float lobe = aligned > 0 ? std::pow(aligned, r.exponent) : 0;
-    sum += from.irradiance * slant * (r.diffuse / pi + r.specular * (lobe * (r.exponent + 2) / (2 * pi)));
+// What one of the rays of a packet sees.
+struct Seen {
+  Reflection reflection;
+  glm::vec3 mirrored{0};
+};
+
+// Light from one lamp. Shadow rays are spared where the lamp gives nothing: behind the surface, out of the spot's cone.
+void add_direct(const World& world, const PlacedLight& light, std::span<const Surface> surfaces,
+                std::span<const Seen> seen, std::span<glm::vec3> radiance, bool& touched) {
+  std::array<Arrival, packet_size> from;
+  std::array<ShadowRay, packet_size> rays;
+  Mask lit;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& surface = surfaces[i];
+    if (surface.material == nullptr) continue;
+    from[i] = arrival(light, surface.position);
+    const glm::vec3& towards = from[i].towards;
+    if (!(glm::dot(surface.normal, towards) > 0) || !(glm::dot(surface.facet_normal, towards) > 0)) continue;
+    if (from[i].irradiance == glm::vec3(0)) continue;
+    lit.lanes[i] = -1;
+    rays[i] = {surface.position + world.shadow_offset * surface.facet_normal, towards,
+               from[i].distance - 2 * world.shadow_offset};
   }
-  return sum;
+  if (light.light.casts_shadow) world.blocked(std::span(rays).first(surfaces.size()), lit, touched);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (lit.lanes[i] == 0) continue;
+    const Reflection& r = seen[i].reflection;
+    const float slant = glm::dot(surfaces[i].normal, from[i].towards);
+    const float aligned = glm::dot(seen[i].mirrored, from[i].towards);
+    const float lobe = aligned > 0 ? std::pow(aligned, r.exponent) : 0;
+    radiance[i] += from[i].irradiance * slant * (r.diffuse / pi + r.specular * (lobe * (r.exponent + 2) / (2 * pi)));
+  }
 }
 
 }  // namespace
@@ -79,24 +97,68 @@ glm::vec3 Sky::radiance(const glm::vec3& direction) const noexcept {
   return height >= 0 ? glm::mix(horizon, top, std::sqrt(height)) : glm::mix(horizon, bottom, std::sqrt(-height));
 }
 
-bool World::nearest(const Ray& ray, float from, Surface& surface) const {
-  const bool met = still->nearest(ray, from, infinite, surface);
-  return moving->nearest(ray, from, met ? surface.depth : infinite, surface) || met;
+void World::nearest(std::span<const Ray> rays, float from, std::span<Surface> surfaces, bool& touched) const {
+  Mask all;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    surfaces[i].material = nullptr;
+    surfaces[i].depth = infinite;
+    all.lanes[i] = -1;
+  }
+  still->nearest(rays, all, from, surfaces);
+  const Box& wide = reach.empty() ? moving->box() : reach;
+  Mask near;
+  bool any = false;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (wide.missed_by(rays[i].origin, rays[i].direction, surfaces[i].depth)) continue;
+    touched = true;
+    if (moving->box().missed_by(rays[i].origin, rays[i].direction, surfaces[i].depth)) continue;
+    near.lanes[i] = -1;
+    any = true;
+  }
+  if (any) moving->nearest(rays, near, from, surfaces);
 }
 
-bool World::blocked(const glm::vec3& origin, const glm::vec3& direction, float to) const {
-  return still->blocked(origin, direction, to) || moving->blocked(origin, direction, to);
+void World::blocked(std::span<const ShadowRay> rays, Mask& mask, bool& touched) const {
+  const auto any = [&](const Mask& m) { return std::ranges::any_of(m.lanes, [](int lane) { return lane != 0; }); };
+  Mask asked;  // no ray at all: lights inside a surface
+  for (std::size_t i = 0; i < rays.size(); ++i) asked.lanes[i] = mask.lanes[i] != 0 && rays[i].to > 0 ? -1 : 0;
+  if (!any(asked)) return;
+  Mask open = asked;
+  still->blocked(rays, open);
+  const Box& wide = reach.empty() ? moving->box() : reach;
+  Mask near;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (open.lanes[i] == 0 || wide.missed_by(rays[i].origin, rays[i].direction, rays[i].to)) continue;
+    touched = true;
+    if (!moving->box().missed_by(rays[i].origin, rays[i].direction, rays[i].to)) near.lanes[i] = -1;
+  }
+  const Mask before = near;
+  if (any(near)) moving->blocked(rays, near);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (asked.lanes[i] != 0 && (open.lanes[i] == 0 || before.lanes[i] != near.lanes[i])) mask.lanes[i] = 0;
 }
 
-glm::vec3 shade(const World& world, const Lighting& lighting, const Surface& surface, const glm::vec3& view) {
-  const Material& material = *surface.material;
-  const Reflection r = reflection(world, surface);
-  const glm::vec3 mirrored = glm::reflect(glm::normalize(view), surface.normal);
-  const float up = 0.5f + 0.5f * surface.normal.y;
-  glm::vec3 colour = surface.openness * (r.diffuse * glm::mix(lighting.ambient_bottom, lighting.ambient_top, up) +
-                                         r.specular * r.gloss * lighting.sky.radiance(mirrored));
-  colour += direct(world, lighting, surface, r, mirrored);
-  return colour + material.emission * textured(world, material.emission_texture, surface.uv);
+void shade(const World& world, const Lighting& lighting, std::span<const Ray> rays, std::span<const Surface> surfaces,
+           std::span<glm::vec3> radiance, bool& touched) {
+  std::array<Seen, packet_size> seen;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Surface& surface = surfaces[i];
+    if (surface.material == nullptr) {
+      radiance[i] = lighting.sky.radiance(rays[i].direction);
+      continue;
+    }
+    const Reflection r = reflection(world, surface);
+    const glm::vec3 mirrored = glm::reflect(glm::normalize(rays[i].direction), surface.normal);
+    const float up = 0.5f + 0.5f * surface.normal.y;
+    seen[i] = {r, mirrored};
+    radiance[i] = surface.openness * (r.diffuse * glm::mix(lighting.ambient_bottom, lighting.ambient_top, up) +
+                                      r.specular * r.gloss * lighting.sky.radiance(mirrored));
+    const Material& material = *surface.material;
+    if (material.emission != glm::vec3(0))
+      radiance[i] += material.emission * textured(world, material.emission_texture, surface.uv);
+  }
+  for (const PlacedLight& light : lighting.lights)
+    add_direct(world, light, surfaces, std::span(seen).first(surfaces.size()), radiance, touched);
 }
 
 }  // namespace pullfocus::sequences

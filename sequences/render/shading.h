@@ -6,6 +6,7 @@
 // mix(0.04, base, metallic), exponent 2 / roughness^4 - 2.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "render/intersector.h"
@@ -17,11 +18,13 @@ struct Sky {
   glm::vec3 bottom{0}, horizon{0}, top{0};
 
   glm::vec3 radiance(const glm::vec3& direction) const noexcept;  // any length
+  bool operator==(const Sky&) const = default;
 };
 
 struct PlacedLight {
   Light light;
   glm::vec3 position{0}, direction{0, -1, 0};  // direction in which it shines, unit length
+  bool operator==(const PlacedLight&) const = default;
 };
 
 struct Lighting {
@@ -29,6 +32,7 @@ struct Lighting {
   Sky sky;                   // as seen where nothing is, and in reflections
   glm::vec3 ambient_top{0};  // irradiance / pi on a surface facing up, and one facing down
   glm::vec3 ambient_bottom{0};
+  bool operator==(const Lighting&) const = default;
 };
 
 // The things of one frame: those that stand still and those that move.
@@ -37,12 +41,16 @@ struct World {
   const Intersector* moving = nullptr;
   const std::vector<Texture>* textures = nullptr;
   float shadow_offset = 0;  // of shadow rays from their surface, scene units
+  Box reach;                // holds moving->box() in this frame and in others; empty: that box alone
 
-  bool nearest(const Ray& ray, float from, Surface& surface) const;
-  bool blocked(const glm::vec3& origin, const glm::vec3& direction, float to) const;
+  // At most packet_size rays. Sets all surfaces. `touched` becomes true if a ray met `reach`: otherwise, the result is
+  // the same for all frames whose moving things lie in it.
+  void nearest(std::span<const Ray> rays, float from, std::span<Surface> surfaces, bool& touched) const;
+  void blocked(std::span<const ShadowRay> rays, Mask& mask, bool& touched) const;  // as Intersector::blocked
 };
 
-// Radiance towards -view; `view` is the ray's direction, any length.
-glm::vec3 shade(const World& world, const Lighting& lighting, const Surface& surface, const glm::vec3& view);
+// Radiance towards where at most packet_size rays come from, at the surfaces they meet, or of the sky.
+void shade(const World& world, const Lighting& lighting, std::span<const Ray> rays, std::span<const Surface> surfaces,
+           std::span<glm::vec3> radiance, bool& touched);
 
 }  // namespace pullfocus::sequences

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -104,6 +105,37 @@ TEST(Picture, KeepsItsBitsWhereNothingMoves) {
   still.render(10, 4, a);
   still.render(90, 4, b);
   EXPECT_TRUE(a.colour == b.colour);
+}
+
+// What is taken from earlier frames must be what would have been drawn, in whatever order frames come; frame 140 lies
+// beyond the shot.
+TEST(StillPixels, ChangeNoBits) {
+  const std::string folder = std::string(PULLFOCUS_SOURCE_DIR) + "/sequences/shots/";
+  for (const char* name : {"fearing-1", "fearing-3", "fearing-4", "lighting", "noise", "bokeh", "cut", "dolly"}) {
+    const ShotRenderer renderer(load_shot(folder + name + ".toml"), width, height);
+    StillPixels sharp, lens;
+    for (const int frame : {1, 12, 13, 40, 140, 40, 3}) {
+      Frame with, without;
+      ColourImage truth_with, truth_without;
+      renderer.render(frame, 5, with, &sharp);
+      renderer.render(frame, 5, without);
+      EXPECT_TRUE(with.colour == without.colour) << name << " frame " << frame;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) ASSERT_EQ(with.depth.at(x, y), without.depth.at(x, y)) << name << ' ' << frame;
+      renderer.truth(frame, 17, truth_with, &lens);
+      renderer.truth(frame, 17, truth_without);
+      EXPECT_TRUE(truth_with == truth_without) << name << " frame " << frame;
+    }
+  }
+}
+
+TEST(StillPixels, SpareMostOfAPictureInWhichLittleMoves) {
+  const std::string file = std::string(PULLFOCUS_SOURCE_DIR) + "/sequences/shots/fearing-1.toml";
+  const ShotRenderer renderer(load_shot(file), width, height);
+  StillPixels still;
+  Frame frame;
+  renderer.render(1, 1, frame, &still);
+  EXPECT_GT(std::ranges::count_if(still.pixels, [](const auto& p) { return p.still; }), width * height / 2);
 }
 
 TEST(Picture, NoiseIsNewInEveryFrameHasItsDeviationAndLeavesTheTruthAlone) {
