@@ -63,8 +63,15 @@ void add_compare_options(CLI::App& app, CompareArguments& a) {
       ->group(group)
       ->multi_option_policy(take_all)
       ->allow_extra_args(false);
+  app.add_option("--measure-every", a.measure_every, "measure errors on every K-th frame only, from the first")
+      ->type_name("K")
+      ->group(group)
+      ->capture_default_str();
   app.add_option("--json", a.json, "write everything measured, frame by frame")->type_name("FILE")->group(group);
   app.add_option("--csv", a.csv, "write the table")->type_name("FILE")->group(group);
+  app.add_option("--markdown", a.markdown, "write the table as part of a Markdown document")
+      ->type_name("FILE")
+      ->group(group);
   app.add_option("--html", a.html, "write one page with table, plots and pictures")->type_name("FILE")->group(group);
 }
 
@@ -81,6 +88,10 @@ void check_counts(const CompareArguments& a) {
     throw Error(ErrorCode::usage, "--reference needs --given: to compare filtered pictures, give --truth");
   }
   if (a.given && !a.truths.empty()) throw Error(ErrorCode::usage, "--truth does not go with --given: use --reference");
+  if (a.measure_every < 1) throw Error(ErrorCode::usage, "--measure-every must be at least 1: give a number of frames");
+  if (a.given && a.measure_every > 1) {
+    throw Error(ErrorCode::usage, "--measure-every does not go with --given: choose frames with --frames");
+  }
   if (!(a.peak > 0) || !std::isfinite(a.peak)) throw Error(ErrorCode::usage, "--peak must be greater than 0");
 }
 
@@ -103,6 +114,7 @@ int compare(const Arguments& a) {
   check_report_path("--json", c.json);
   check_report_path("--csv", c.csv);
   check_report_path("--html", c.html);
+  check_report_path("--markdown", c.markdown);
   use_threads(a.filter.threads);
 
   std::vector<ShotResult> shots;
@@ -115,6 +127,7 @@ int compare(const Arguments& a) {
   if (!c.json.empty()) write_report("--json", c.json, json_report(shots));
   if (!c.csv.empty()) write_report("--csv", c.csv, csv_report(shots));
   if (!c.html.empty()) write_report("--html", c.html, html_report(shots));
+  if (!c.markdown.empty()) write_report("--markdown", c.markdown, markdown_report(shots));
 
   const std::vector<std::string> broken = violations(limits, shots);
   for (const std::string& line : broken) std::fprintf(stderr, "pullfocus: %s\n", line.c_str());

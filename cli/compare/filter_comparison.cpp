@@ -64,14 +64,21 @@ struct FilterComparison::Work {
     result.truth = pattern;
     result.window = sequence.display_window;
     result.peak = a.peak;
+    result.measure_every = a.measure_every;
     result.camera = shot.camera().describe(frames.front().frame, sequence.first);
     if (pattern.empty()) return;
     truth.emplace(pattern, "", "--truth");
     truth->require_window(sequence.display_window, sequence.pattern.text());
-    if (std::ranges::none_of(frames, [&](const auto& f) { return truth_of(f.frame) != nullptr; })) {
-      throw Error(ErrorCode::usage, fmt::format("--truth {}: has none of the frames that are compared",
-                                                truth->sequence().pattern.text()));
+    for (std::size_t i = 0; i < frames.size(); i += static_cast<std::size_t>(a.measure_every)) {
+      if (truth_of(frames[i].frame) != nullptr) return;
     }
+    if (std::ranges::any_of(frames, [&](const auto& f) { return truth_of(f.frame) != nullptr; })) {
+      throw Error(ErrorCode::usage,
+                  fmt::format("--truth {}: has none of the frames that are measured: give another --measure-every",
+                              truth->sequence().pattern.text()));
+    }
+    throw Error(ErrorCode::usage,
+                fmt::format("--truth {}: has none of the frames that are compared", truth->sequence().pattern.text()));
   }
 
   const exr::SequenceFrame* truth_of(int frame) const {
@@ -121,17 +128,21 @@ struct FilterComparison::Work {
       const std::size_t turn = (i + number) % runners.size();
       stats[turn] = runners[turn].filter->filter(current.frame, coc);
     }
-    for (ContinuousFilter& c : continuous) c.filter(current.frame, coc);
+    const bool measured = number % static_cast<std::size_t>(result.measure_every) == 0;
+    const bool pictured = result.picture_frame == from.frame;
+    if (measured || pictured) {
+      for (ContinuousFilter& c : continuous) c.filter(current.frame, coc);
+    }
 
-    const exr::SequenceFrame* true_picture = truth_of(from.frame);
+    const exr::SequenceFrame* true_picture = measured || pictured ? truth_of(from.frame) : nullptr;
     if (true_picture != nullptr) truth->read(*true_picture, result.window, true_frame);
     for (std::size_t i = 0; i < runners.size(); ++i) {
       FrameResult& to = result.rows[i].frames.emplace_back();
       to.frame = from.frame;
       to.stats = stats[i];
-      measure(runners[i], true_picture != nullptr, to.errors);
+      if (measured) measure(runners[i], true_picture != nullptr, to.errors);
     }
-    if (result.picture_frame == from.frame) take_pictures(true_picture != nullptr);
+    if (pictured) take_pictures(true_picture != nullptr);
   }
 
   void measure(const Runner& runner, bool with_truth, ErrorsAgainst& errors) {
@@ -145,7 +156,11 @@ struct FilterComparison::Work {
       errors[index_of(Against::quantisation)] =
           picture_errors(picture, continuous[runner.continuous].result(), all, result.peak);
     }
-    if (with_truth) {
+    if (!with_truth) return;
+    const ErrorsAgainst& linear = result.rows[runners[runner.linear].row].frames.back().errors;
+    if (!is_linear && picture == runners[runner.linear].filter->result()) {
+      errors[index_of(Against::truth)] = linear[index_of(Against::truth)];
+    } else {
       errors[index_of(Against::truth)] = picture_errors(picture, true_frame.colour, result.window, result.peak);
     }
   }

@@ -36,10 +36,9 @@ std::string error_cells(const ShotResult& shot, const Row& row, Against against)
 }
 
 std::string time_cells(const ShotResult& shot, const Row& row) {
-  const auto ms = median_ms(row), speed_up = median_speed_up(shot, row), share = updated_share(shot, row);
-  return cell(shown_ms(row.first_ms()), true) + cell(ms ? shown_ms(*ms) : "") +
-         cell(speed_up ? fmt::format("{:.2f}", *speed_up) : "") +
-         cell(share ? fmt::format("{:.2f}", 100 * *share) : "");
+  std::string text;
+  for (const std::string& time : time_texts(shot, row)) text += cell(time, text.empty());
+  return text;
 }
 
 // One table for each error; times stand beside the first.
@@ -160,8 +159,10 @@ std::string picture_section(const ShotResult& shot) {
 }
 
 std::string section(const ShotResult& shot) {
-  std::string text = fmt::format("<h2>{}</h2>\n<p class=\"soft\">frames {}, {}&#215;{}{}{}{}</p>\n",
+  const std::string measured = measured_frames_text(shot);
+  std::string text = fmt::format("<h2>{}</h2>\n<p class=\"soft\">frames {}, {}&#215;{}{}{}{}{}</p>\n",
                                  escaped(shot.input), frames_of(shot), shot.window.width(), shot.window.height(),
+                                 measured.empty() ? "" : fmt::format("; {}", measured),
                                  shot.camera.empty() ? "" : "; " + escaped(shot.camera),
                                  shot.truth.empty() ? "" : "; truth " + escaped(shot.truth),
                                  shot.reference.empty() ? "" : "; reference " + escaped(shot.reference));

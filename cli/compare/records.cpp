@@ -86,6 +86,7 @@ std::string json_report(const std::vector<ShotResult>& shots) {
     if (!shot.given) one["truth"] = text_or_null(shot.truth);
     if (!shot.camera.empty()) one["camera"] = shot.camera;
     if (!shot.given) one["threads"] = shot.threads;
+    if (!shot.given) one["measure_every"] = shot.measure_every;
     one["width"] = shot.window.width();
     one["height"] = shot.window.height();
     one["psnr_peak"] = shot.peak;

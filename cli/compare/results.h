@@ -59,6 +59,7 @@ struct ShotResult {
   Window window;                        // the picture
   double peak = 1;
   int threads = 0;
+  int measure_every = 1;  // errors on every k-th frame, from the first; times and counts on all
   bool given = false;
   std::vector<Row> rows;
   std::vector<Picture64> pictures;  // input, truth

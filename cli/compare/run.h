@@ -17,7 +17,8 @@ struct CompareArguments {
   CombinationLists lists;
   bool given = false, no_quantisation = false;
   double peak = 1;
-  std::string json, csv, html;
+  int measure_every = 1;  // errors on every k-th frame, from the first
+  std::string json, csv, html, markdown;
 };
 
 inline constexpr int kQuickFrames = 6;

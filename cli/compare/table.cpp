@@ -25,6 +25,21 @@ std::string heading(const ShotResult& shot, Against against) {
   return "of quantisation: linear against linear with CoC steps of 1/8 pixel";
 }
 
+std::vector<std::string> time_texts(const ShotResult& shot, const Row& row) {
+  const auto ms = median_ms(row), speed_up = median_speed_up(shot, row), share = updated_share(shot, row);
+  return {shown_ms(row.first_ms()), ms ? shown_ms(*ms) : "-", speed_up ? fmt::format("{:.2f}", *speed_up) : "-",
+          share ? fmt::format("{:.2f}", 100 * *share) : "-"};
+}
+
+std::string measured_frames_text(const ShotResult& shot) {
+  if (shot.measure_every == 1) return "";
+  std::vector<int> frames;
+  for (std::size_t i = 0; i < shot.rows.front().frames.size(); i += static_cast<std::size_t>(shot.measure_every)) {
+    frames.push_back(shot.rows.front().frames[i].frame);
+  }
+  return fmt::format("errors are of every {}. frame: {}", shot.measure_every, exr::format_frames(frames));
+}
+
 std::string frames_of(const ShotResult& shot) {
   std::vector<int> frames;
   for (const FrameResult& frame : shot.rows.front().frames) frames.push_back(frame.frame);
@@ -52,12 +67,11 @@ std::string aligned(const std::vector<Line>& lines) {
 }
 
 std::string times_table(const ShotResult& shot) {
-  std::vector<Line> lines{{"", "first ms", "median ms", "speed-up", "updated %"}};
+  std::vector<Line> lines{{""}};
+  lines.front().insert(lines.front().end(), kTimeTitles.begin(), kTimeTitles.end());
   for (const Row& row : shot.rows) {
-    const auto ms = median_ms(row), speed_up = median_speed_up(shot, row), share = updated_share(shot, row);
-    lines.push_back({row.label, shown_ms(row.first_ms()), ms ? shown_ms(*ms) : "-",
-                     speed_up ? fmt::format("{:.2f}", *speed_up) : "-",
-                     share ? fmt::format("{:.2f}", 100 * *share) : "-"});
+    lines.push_back({row.label});
+    for (const std::string& text : time_texts(shot, row)) lines.back().push_back(text);
   }
   return aligned(lines);
 }
@@ -80,6 +94,8 @@ std::string table(const ShotResult& shot) {
   std::string text =
       fmt::format("{}: frames {}, {}x{}\n", shot.input, frames_of(shot), shot.window.width(), shot.window.height());
   if (!shot.camera.empty()) text += fmt::format("camera of the first frame: {}\n", shot.camera);
+  const std::string measured = measured_frames_text(shot);
+  if (!measured.empty()) text += measured + '\n';
   if (!shot.given) text += times_table(shot);
   for (const Against against : kAgainst) {
     if (shot.measured(against)) text += errors_table(shot, against);

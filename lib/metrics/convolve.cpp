@@ -20,10 +20,9 @@ void correlate_row(const double* in, int width, const Taps& taps, std::vector<do
   for (int i = 0; i < width + 2 * radius; ++i) {
     padded[static_cast<std::size_t>(i)] = in[std::clamp(i - radius, 0, width - 1)];
   }
-  for (int x = 0; x < width; ++x) {
-    double sum = 0;
-    for (std::size_t i = 0; i < taps.size(); ++i) sum += taps[i] * padded[static_cast<std::size_t>(x) + i];
-    out[x] = sum;
+  std::fill_n(out, width, 0.0);
+  for (std::size_t i = 0; i < taps.size(); ++i) {
+    for (int x = 0; x < width; ++x) out[x] += taps[i] * padded[static_cast<std::size_t>(x) + i];
   }
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -115,6 +116,55 @@ TEST_F(Compare, TheTruthOfALinearFilterIsItsOwnOutput) {
   EXPECT_GT(filters[1]["errors"]["truth"]["largest"], 0);
   EXPECT_FALSE(filters[0]["frames"][2]["errors"].contains("truth"));
   EXPECT_TRUE(filters[0]["frames"][3]["errors"].contains("truth"));
+}
+
+TEST_F(Compare, MeasuringEveryKthFrameLeavesWorkAndThoseFramesErrorsAsTheyAre) {
+  const std::string truth = filtered("truth", "--method linear --fstop 5");
+  const std::string options = fmt::format("--truth '{}' --budgets 5%,100%", truth);
+  const json all = report(options)["shots"][0], some = report(options + " --measure-every 4")["shots"][0];
+  EXPECT_EQ(some["measure_every"], 4);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const json &a = all["filters"][i]["frames"], &b = some["filters"][i]["frames"];
+    ASSERT_EQ(b.size(), 6u);
+    for (std::size_t frame = 0; frame < 6; ++frame) {
+      EXPECT_EQ(a[frame]["updated"], b[frame]["updated"]);
+      EXPECT_EQ(b[frame].contains("errors"), frame % 4 == 0);
+      if (b[frame].contains("errors")) {
+        EXPECT_EQ(a[frame]["errors"], b[frame]["errors"]);
+      }
+    }
+  }
+  for (int frame : {40, 44}) std::filesystem::remove(folder / fmt::format("truth/star-lateral.00{}.exr", frame));
+  const Outcome outcome = compare(options + " --measure-every 4");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("--measure-every"), std::string::npos) << outcome.err;
+  for (const char* wrong : {"0", "-2", "1.5", "x"}) {
+    EXPECT_EQ(compare(fmt::format("--measure-every {}", wrong)).code, 2) << wrong;
+  }
+}
+
+TEST_F(Compare, MarkdownHasOneTableOfTheTablesNumbers) {
+  const Outcome outcome = compare(fmt::format("--measure-every 2 --markdown '{}'", folder / "r.md"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream lines(exr::test::file_bytes(folder / "r.md"));
+  std::string line;
+  std::vector<std::ptrdiff_t> bars;
+  std::size_t known = 0, numbers = 0;
+  while (std::getline(lines, line)) {
+    if (line.empty() || line[0] != '|') continue;
+    bars.push_back(std::ranges::count(line, '|'));
+    if (bars.size() < 3) continue;
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      if (word.find_first_of("0123456789") == std::string::npos || word.back() == '%') continue;
+      ++numbers;
+      known += outcome.out.find(word) != std::string::npos;
+    }
+  }
+  ASSERT_EQ(bars.size(), 2u + 4);  // linear, three budgets
+  for (const auto count : bars) EXPECT_EQ(count, bars.front());
+  EXPECT_GT(numbers, 30u);
+  EXPECT_EQ(known, numbers) << "the terminal shows the same";
 }
 
 TEST_F(Compare, TableCsvJsonAndPageHoldTheSameNumbers) {
