@@ -11,6 +11,7 @@ packages=(
   nlohmann-json3-dev libtomlplusplus-dev
   libglm-dev                    # geometry of shots
   libembree-dev libtinygltf-dev # rays, glTF scenes
+  python3 gnuplot-nox           # the report of speed against error
   libgtest-dev                  # tests
   openimageio-tools             # the demo's PNG; an independent reader in the tests
 )

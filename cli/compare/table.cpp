@@ -37,7 +37,7 @@ std::string measured_frames_text(const ShotResult& shot) {
   for (std::size_t i = 0; i < shot.rows.front().frames.size(); i += static_cast<std::size_t>(shot.measure_every)) {
     frames.push_back(shot.rows.front().frames[i].frame);
   }
-  return fmt::format("errors are of every {}. frame: {}", shot.measure_every, exr::format_frames(frames));
+  return fmt::format("errors are of one frame in {}: {}", shot.measure_every, exr::format_frames(frames));
 }
 
 std::string frames_of(const ShotResult& shot) {
