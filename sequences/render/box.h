@@ -37,15 +37,14 @@ struct Box {
     return larger;
   }
 
-  // Whether the ray from ray parameter 0 to `to` surely does not meet the box. Comparisons with NaN (origin on the
-  // box's plane, direction along it) are false, and leave the interval as it is.
-  bool missed_by(const glm::vec3& origin, const glm::vec3& direction, float to) const noexcept {
+  // Whether the ray from ray parameter 0 to `to` surely does not meet the box; `inverse`: 1 / direction, by component.
+  // Comparisons with NaN (origin on the box's plane, direction along it) are false, and leave the interval as it is.
+  bool missed_by(const glm::vec3& origin, const glm::vec3& inverse, float to) const noexcept {
     if (empty()) return true;
     float enter = 0, leave = to;
     for (int axis = 0; axis < 3; ++axis) {
-      const float inverse = 1 / direction[axis];
-      float first = (low[axis] - origin[axis]) * inverse, last = (high[axis] - origin[axis]) * inverse;
-      if (inverse < 0) std::swap(first, last);
+      float first = (low[axis] - origin[axis]) * inverse[axis], last = (high[axis] - origin[axis]) * inverse[axis];
+      if (inverse[axis] < 0) std::swap(first, last);
       if (first > enter) enter = first;
       if (last < leave) leave = last;
     }

@@ -20,7 +20,7 @@ float openness_at(const World& world, const glm::vec3& position, const glm::vec3
   const glm::vec3 u = glm::normalize(glm::cross(side, normal)), v = glm::cross(normal, u);
   const glm::vec3 start = position + 4 * world.shadow_offset * normal;
   std::ptrdiff_t open = 0;
-  bool touched = false;
+  Touch touch;
   for (std::size_t first = 0; first < pattern.size(); first += packet_size) {
     std::array<ShadowRay, packet_size> rays;
     Mask mask;
@@ -31,7 +31,7 @@ float openness_at(const World& world, const glm::vec3& position, const glm::vec3
       rays[i] = {start, p.x * u + p.y * v + height * normal, reach};
       mask.lanes[i] = -1;
     }
-    world.blocked(std::span(rays).first(count), mask, touched);
+    world.blocked(std::span(rays).first(count), mask, touch);
     open += std::ranges::count(mask.lanes, -1);
   }
   return static_cast<float>(open) / static_cast<float>(pattern.size());

@@ -17,6 +17,10 @@ std::vector<PlacedMesh> place(const Shot& shot, const std::vector<char>& moves, 
 
 std::vector<PlacedLight> place_lights(const Shot& shot, int frame, const std::vector<glm::mat4>& world);
 
+// Of the moving nodes' meshes; of the first 1000 frames.
+Reach reach_of_moving(const Shot& shot, const std::vector<char>& moves);
+int span_of(const Shot& shot, int frame) noexcept;  // index into Reach::spans, for frames of the shot
+
 // Stands in front of everything, for scenes without a camera.
 glm::mat4 outside(const Box& box, double vertical_fov);
 

@@ -53,16 +53,16 @@ struct ShotRenderer::Stage {
       : camera(frame_camera), moving(std::move(moving_meshes)) {}
 
   // Colours that at most packet_size rays bring.
-  void colours(std::span<const Ray> rays, std::span<glm::vec3> out, bool& touched) const {
+  void colours(std::span<const Ray> rays, std::span<glm::vec3> out, Touch& touch) const {
     std::array<Surface, packet_size> surfaces;
     const auto met = std::span(surfaces).first(rays.size());
-    world.nearest(rays, 0, met, touched);
-    shade(world, lighting, rays, met, out, touched);
+    world.nearest(rays, 0, met, touch);
+    shade(world, lighting, rays, met, out, touch);
   }
 
   // Mean colour of a pixel; on the lens or, if not `through_lens`, at its middle.
   glm::vec3 pixel(int x, int y, const SamplePattern& pattern, std::uint32_t seed, bool through_lens,
-                  bool& touched) const {
+                  Touch& touch) const {
     glm::dvec3 sum(0);
     const glm::vec2 corner(x, y);
     std::array<Ray, packet_size> rays;
@@ -73,17 +73,17 @@ struct ShotRenderer::Stage {
         const glm::vec2 lens = through_lens ? concentric_disc(pattern.lens(first + i, seed)) : glm::vec2(0);
         rays[i] = camera.ray(corner + pattern.pixel(first + i, seed), lens);
       }
-      colours(std::span(rays).first(count), colour, touched);
+      colours(std::span(rays).first(count), colour, touch);
       for (std::size_t i = 0; i < count; ++i) sum += scale * colour[i];
     }
     return sum / static_cast<double>(pattern.size());
   }
 
   // Planar depth of what the pixel's middle shows.
-  float depth(int x, int y, bool& touched) const {
+  float depth(int x, int y, Touch& touch) const {
     const Ray ray = camera.ray(glm::vec2(x, y) + 0.5f, {0, 0});
     Surface surface;
-    world.nearest({&ray, 1}, 0, {&surface, 1}, touched);
+    world.nearest({&ray, 1}, 0, {&surface, 1}, touch);
     return std::min(surface.depth, sky_depth);
   }
 
@@ -101,23 +101,13 @@ ShotRenderer::ShotRenderer(Shot shot, int width, int height)
   still_ = std::make_unique<Intersector>(device_, place(shot_, moves_, false, world));
   const Intersector moving(device_, place(shot_, moves_, true, world));
   if (shot_.ambient_reach > 0) measure_openness(moving);
-  reach_ = reach_of_moving();
-}
-
-Box ShotRenderer::reach_of_moving() const {
-  Box box;
-  if (std::ranges::none_of(moves_, [](char moves) { return moves != 0; })) return box;
-  constexpr int most_frames = 1000;  // of longer shots, only these will reuse pixels
-  for (int frame = shot_.first_frame; frame <= shot_.last_frame && frame < shot_.first_frame + most_frames; ++frame)
-    box.add(
-        box_of(place(shot_, moves_, true, world_matrices(shot_.scene, shot_.animations, frame_time(shot_, frame)))));
-  return box.with_margin().with_margin();
+  reach_ = reach_of_moving(shot_, moves_);
 }
 
 ShotRenderer::~ShotRenderer() = default;
 
 void ShotRenderer::measure_openness(const Intersector& moving) {
-  const World world{still_.get(), &moving, &shot_.scene.textures, 1e-5f * box_of(still_->meshes()).diagonal(), {}};
+  const World world{still_.get(), &moving, &shot_.scene.textures, 1e-5f * box_of(still_->meshes()).diagonal()};
   std::vector<std::vector<float>> still;
   for (const PlacedMesh& mesh : still_->meshes()) still.push_back(openness(world, mesh, shot_.ambient_reach));
   for (const PlacedMesh& mesh : moving.meshes()) openness_.push_back(openness(world, mesh, shot_.ambient_reach));
@@ -140,33 +130,46 @@ std::unique_ptr<ShotRenderer::Stage> ShotRenderer::stage(int frame) const {
   auto result = std::make_unique<Stage>(camera(frame, world), std::move(moving));
   Box box = box_of(still_->meshes());
   if (box.empty()) box = box_of(result->moving->meshes());
-  result->world = {still_.get(), result->moving.get(), &shot_.scene.textures, 1e-5f * box.diagonal(), reach_};
-  if (!reach_.holds(result->moving->box())) result->world.reach = {};  // a frame outside the shot
+  result->world = {still_.get(), result->moving.get(), &shot_.scene.textures, 1e-5f * box.diagonal()};
   result->lighting = {place_lights(shot_, frame, world), shot_.sky, shot_.ambient_top, shot_.ambient_bottom};
   result->scale = static_cast<float>(std::exp2(shot_.exposure));
   return result;
 }
 
 template <class Draw, class Store>
-void ShotRenderer::draw(const Stage& now, const StillPixels::Setting& setting, StillPixels* still,
+void ShotRenderer::draw(int frame, const Stage& now, const StillPixels::Setting& setting, StillPixels* still,
                         const Draw& draw_pixel, const Store& store_pixel) const {
-  const bool within = reach_.holds(now.moving->box());
-  if (still && (still->setting != setting || !within)) {
-    still->setting = within ? std::optional(setting) : std::nullopt;
+  if (still && still->setting != setting) {
+    still->setting = setting;
     still->pixels.assign(static_cast<std::size_t>(raster_.width) * static_cast<std::size_t>(raster_.height), {});
   }
+  std::uint32_t span = 0;  // none: nothing moves
+  bool reusable = true;
+  if (!now.moving->box().empty()) {
+    const bool within = frame >= shot_.first_frame && frame <= shot_.last_frame;
+    const auto number = static_cast<std::size_t>(within ? span_of(shot_, frame) : 0);
+    reusable = within && number < reach_.spans.size() && reach_.spans[number].holds(now.moving->box());
+    span = reusable ? std::uint32_t{1} << number : 0;
+  }
+  constexpr int most_tries = 4;
   for_pixels(raster_, [&](int x, int y) {
-    StillPixels::Pixel fresh;
-    StillPixels::Pixel& pixel =
-        still ? still->pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.width) +
-                              static_cast<std::size_t>(x)]
-              : fresh;
-    if (!pixel.still) {
-      bool touched = !within;
-      draw_pixel(x, y, pixel, touched);
-      pixel.still = !touched;
+    StillPixels::Pixel drawn;
+    StillPixels::Pixel* kept =
+        still ? &still->pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.width) +
+                               static_cast<std::size_t>(x)]
+              : nullptr;
+    if (kept && kept->known && reusable && (kept->touched & span) == 0) return store_pixel(x, y, *kept);
+    const bool learn = kept && !kept->known && kept->tries < most_tries;
+    Touch touch;
+    if (learn) touch.reach = &reach_;
+    draw_pixel(x, y, drawn, touch);
+    if (learn && touch.now) ++kept->tries;
+    if (learn && !touch.now) {
+      *kept = drawn;
+      kept->known = true;
+      kept->touched = touch.spans;
     }
-    store_pixel(x, y, pixel);
+    store_pixel(x, y, drawn);
   });
 }
 
@@ -178,10 +181,10 @@ void ShotRenderer::render(int frame, int samples, Frame& out, StillPixels* still
   out.has_alpha = false;
   const SamplePattern pattern(samples);
   draw(
-      *now, {now->camera.pinhole(), now->lighting, samples, false}, still,
-      [&](int x, int y, StillPixels::Pixel& pixel, bool& touched) {
-        pixel.colour = now->pixel(x, y, pattern, pixel_seed(x, y), false, touched);
-        pixel.depth = now->depth(x, y, touched);
+      frame, *now, {now->camera.pinhole(), now->lighting, samples, false}, still,
+      [&](int x, int y, StillPixels::Pixel& pixel, Touch& touch) {
+        pixel.colour = now->pixel(x, y, pattern, pixel_seed(x, y), false, touch);
+        pixel.depth = now->depth(x, y, touch);
       },
       [&](int x, int y, const StillPixels::Pixel& pixel) {
         const float noise = shot_.noise > 0 ? noise_factor(shot_.noise, x, y, frame) : 1;
@@ -195,9 +198,9 @@ void ShotRenderer::truth(int frame, int samples, ColourImage& out, StillPixels* 
   out.reset({0, 0, raster_.width, raster_.height}, SampleType::float32);
   const SamplePattern pattern(samples);
   draw(
-      *now, {now->camera, now->lighting, samples, true}, still,
-      [&](int x, int y, StillPixels::Pixel& pixel, bool& touched) {
-        pixel.colour = now->pixel(x, y, pattern, pixel_seed(x, y), true, touched);
+      frame, *now, {now->camera, now->lighting, samples, true}, still,
+      [&](int x, int y, StillPixels::Pixel& pixel, Touch& touch) {
+        pixel.colour = now->pixel(x, y, pattern, pixel_seed(x, y), true, touch);
       },
       [&](int x, int y, const StillPixels::Pixel& pixel) { store(out, x, y, pixel.colour); });
 }
@@ -207,8 +210,8 @@ void ShotRenderer::truth_of_views(int frame, int views, ColourImage& out) const 
   out.reset({0, 0, raster_.width, raster_.height}, SampleType::float32);
   const SamplePattern pattern(views);
   for_pixels(raster_, [&](int x, int y) {
-    bool touched = false;
-    store(out, x, y, now->pixel(x, y, pattern, 0, true, touched));
+    Touch touch;
+    store(out, x, y, now->pixel(x, y, pattern, 0, true, touch));
   });
 }
 
@@ -222,14 +225,14 @@ void ShotRenderer::deep(int frame, DeepPixels& out) const {
     const Ray ray = now->camera.ray(glm::vec2(x, y) + 0.5f, {0, 0});
     float from = 0;
     Surface surface;
-    bool touched = false;
+    Touch touch;
     const auto found = [&] {
-      now->world.nearest({&ray, 1}, from, {&surface, 1}, touched);
+      now->world.nearest({&ray, 1}, from, {&surface, 1}, touch);
       return surface.material != nullptr && surface.depth < sky_depth;
     };
     while (samples.size() < deepest && found()) {
       glm::vec3 colour;
-      shade(now->world, now->lighting, {&ray, 1}, {&surface, 1}, {&colour, 1}, touched);
+      shade(now->world, now->lighting, {&ray, 1}, {&surface, 1}, {&colour, 1}, touch);
       samples.push_back({surface.depth, now->scale * colour});
       from = surface.depth * (1 + same_surface);
     }

@@ -58,10 +58,9 @@ class ShotRenderer {
   struct Stage;  // one frame, ready for rays
   std::unique_ptr<Stage> stage(int frame) const;
   void measure_openness(const Intersector& moving);
-  Box reach_of_moving() const;
   template <class Draw, class Store>
-  void draw(const Stage& now, const StillPixels::Setting& setting, StillPixels* still, const Draw& draw_pixel,
-            const Store& store_pixel) const;
+  void draw(int frame, const Stage& now, const StillPixels::Setting& setting, StillPixels* still,
+            const Draw& draw_pixel, const Store& store_pixel) const;
   FrameCamera camera(int frame, const std::vector<glm::mat4>& world) const;
 
   Shot shot_;
@@ -69,7 +68,7 @@ class ShotRenderer {
   Device device_;
   std::vector<char> moves_;                   // a flag a node
   std::unique_ptr<Intersector> still_;        // meshes that no animation moves
-  Box reach_;                                 // around the others, in all frames of the shot
+  Reach reach_;                               // of the others
   std::vector<std::vector<float>> openness_;  // of the moving ones, in their order
 };
 

@@ -64,7 +64,7 @@ struct Seen {
 
 // Light from one lamp. Shadow rays are spared where the lamp gives nothing: behind the surface, out of the spot's cone.
 void add_direct(const World& world, const PlacedLight& light, std::span<const Surface> surfaces,
-                std::span<const Seen> seen, std::span<glm::vec3> radiance, bool& touched) {
+                std::span<const Seen> seen, std::span<glm::vec3> radiance, Touch& touch) {
   std::array<Arrival, packet_size> from;
   std::array<ShadowRay, packet_size> rays;
   Mask lit;
@@ -79,7 +79,7 @@ void add_direct(const World& world, const PlacedLight& light, std::span<const Su
     rays[i] = {surface.position + world.shadow_offset * surface.facet_normal, towards,
                from[i].distance - 2 * world.shadow_offset};
   }
-  if (light.light.casts_shadow) world.blocked(std::span(rays).first(surfaces.size()), lit, touched);
+  if (light.light.casts_shadow) world.blocked(std::span(rays).first(surfaces.size()), lit, touch);
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (lit.lanes[i] == 0) continue;
     const Reflection& r = seen[i].reflection;
@@ -97,7 +97,18 @@ glm::vec3 Sky::radiance(const glm::vec3& direction) const noexcept {
   return height >= 0 ? glm::mix(horizon, top, std::sqrt(height)) : glm::mix(horizon, bottom, std::sqrt(-height));
 }
 
-void World::nearest(std::span<const Ray> rays, float from, std::span<Surface> surfaces, bool& touched) const {
+bool World::near_moving(const glm::vec3& origin, const glm::vec3& direction, float to, Touch& touch) const {
+  const glm::vec3 inverse = 1.0f / direction;
+  if (touch.reach != nullptr && !touch.now && !touch.reach->all.missed_by(origin, inverse, to)) {
+    for (std::size_t i = 0; i < touch.reach->spans.size(); ++i)
+      if (!touch.reach->spans[i].missed_by(origin, inverse, to)) touch.spans |= std::uint32_t{1} << i;
+  }
+  if (moving->box().missed_by(origin, inverse, to)) return false;
+  touch.now = true;
+  return true;
+}
+
+void World::nearest(std::span<const Ray> rays, float from, std::span<Surface> surfaces, Touch& touch) const {
   Mask all;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     surfaces[i].material = nullptr;
@@ -105,32 +116,26 @@ void World::nearest(std::span<const Ray> rays, float from, std::span<Surface> su
     all.lanes[i] = -1;
   }
   still->nearest(rays, all, from, surfaces);
-  const Box& wide = reach.empty() ? moving->box() : reach;
   Mask near;
   bool any = false;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (wide.missed_by(rays[i].origin, rays[i].direction, surfaces[i].depth)) continue;
-    touched = true;
-    if (moving->box().missed_by(rays[i].origin, rays[i].direction, surfaces[i].depth)) continue;
+    if (!near_moving(rays[i].origin, rays[i].direction, surfaces[i].depth, touch)) continue;
     near.lanes[i] = -1;
     any = true;
   }
   if (any) moving->nearest(rays, near, from, surfaces);
 }
 
-void World::blocked(std::span<const ShadowRay> rays, Mask& mask, bool& touched) const {
+void World::blocked(std::span<const ShadowRay> rays, Mask& mask, Touch& touch) const {
   const auto any = [&](const Mask& m) { return std::ranges::any_of(m.lanes, [](int lane) { return lane != 0; }); };
   Mask asked;  // no ray at all: lights inside a surface
   for (std::size_t i = 0; i < rays.size(); ++i) asked.lanes[i] = mask.lanes[i] != 0 && rays[i].to > 0 ? -1 : 0;
   if (!any(asked)) return;
   Mask open = asked;
   still->blocked(rays, open);
-  const Box& wide = reach.empty() ? moving->box() : reach;
   Mask near;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (open.lanes[i] == 0 || wide.missed_by(rays[i].origin, rays[i].direction, rays[i].to)) continue;
-    touched = true;
-    if (!moving->box().missed_by(rays[i].origin, rays[i].direction, rays[i].to)) near.lanes[i] = -1;
+    if (open.lanes[i] != 0 && near_moving(rays[i].origin, rays[i].direction, rays[i].to, touch)) near.lanes[i] = -1;
   }
   const Mask before = near;
   if (any(near)) moving->blocked(rays, near);
@@ -139,7 +144,7 @@ void World::blocked(std::span<const ShadowRay> rays, Mask& mask, bool& touched) 
 }
 
 void shade(const World& world, const Lighting& lighting, std::span<const Ray> rays, std::span<const Surface> surfaces,
-           std::span<glm::vec3> radiance, bool& touched) {
+           std::span<glm::vec3> radiance, Touch& touch) {
   std::array<Seen, packet_size> seen;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Surface& surface = surfaces[i];
@@ -158,7 +163,7 @@ void shade(const World& world, const Lighting& lighting, std::span<const Ray> ra
       radiance[i] += material.emission * textured(world, material.emission_texture, surface.uv);
   }
   for (const PlacedLight& light : lighting.lights)
-    add_direct(world, light, surfaces, std::span(seen).first(surfaces.size()), radiance, touched);
+    add_direct(world, light, surfaces, std::span(seen).first(surfaces.size()), radiance, touch);
 }
 
 }  // namespace pullfocus::sequences

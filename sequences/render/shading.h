@@ -6,6 +6,7 @@
 // mix(0.04, base, metallic), exponent 2 / roughness^4 - 2.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -35,22 +36,37 @@ struct Lighting {
   bool operator==(const Lighting&) const = default;
 };
 
+// Where moving things go during a shot: a box for each of some spans of frames, and one around all.
+struct Reach {
+  static constexpr std::size_t most_spans = 32;
+  Box all;
+  std::vector<Box> spans;
+};
+
+// Which moving things some rays came near.
+struct Touch {
+  const Reach* reach = nullptr;  // null: spans do not matter
+  bool now = false;              // those of this frame: otherwise, what the rays brought comes from still things alone
+  std::uint32_t spans = 0;       // of the shot, a bit each; complete only unless `now`
+};
+
 // The things of one frame: those that stand still and those that move.
 struct World {
   const Intersector* still = nullptr;
   const Intersector* moving = nullptr;
   const std::vector<Texture>* textures = nullptr;
   float shadow_offset = 0;  // of shadow rays from their surface, scene units
-  Box reach;                // holds moving->box() in this frame and in others; empty: that box alone
 
-  // At most packet_size rays. Sets all surfaces. `touched` becomes true if a ray met `reach`: otherwise, the result is
-  // the same for all frames whose moving things lie in it.
-  void nearest(std::span<const Ray> rays, float from, std::span<Surface> surfaces, bool& touched) const;
-  void blocked(std::span<const ShadowRay> rays, Mask& mask, bool& touched) const;  // as Intersector::blocked
+  // At most packet_size rays. Sets all surfaces; adds to `touch`.
+  void nearest(std::span<const Ray> rays, float from, std::span<Surface> surfaces, Touch& touch) const;
+  void blocked(std::span<const ShadowRay> rays, Mask& mask, Touch& touch) const;  // as Intersector::blocked
+
+ private:
+  bool near_moving(const glm::vec3& origin, const glm::vec3& direction, float to, Touch& touch) const;
 };
 
 // Radiance towards where at most packet_size rays come from, at the surfaces they meet, or of the sky.
 void shade(const World& world, const Lighting& lighting, std::span<const Ray> rays, std::span<const Surface> surfaces,
-           std::span<glm::vec3> radiance, bool& touched);
+           std::span<glm::vec3> radiance, Touch& touch);
 
 }  // namespace pullfocus::sequences

@@ -1,6 +1,7 @@
 // What stays from frame to frame of a shot whose camera, lens and lights stand still.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -9,8 +10,9 @@
 
 namespace pullfocus::sequences {
 
-// Pixels none of whose rays came near anything that moves in any frame of the shot: drawn again, they would have the
-// same bits. A state of the caller's, for one ShotRenderer and one thread at a time; starts empty.
+// Pixels as they are where nothing that moves comes near their rays: drawn again, they would have the same bits. Kept
+// with the spans of frames in which something does come near. A state of the caller's, for one ShotRenderer and one
+// thread at a time; starts empty.
 struct StillPixels {
   struct Setting {
     FrameCamera camera;
@@ -22,7 +24,9 @@ struct StillPixels {
   struct Pixel {
     glm::vec3 colour{0};
     float depth = 0;
-    bool still = false;
+    std::uint32_t touched = 0;  // spans of frames
+    bool known = false;
+    std::uint8_t tries = 0;  // that ended with something near
   };
 
   std::optional<Setting> setting;  // that `pixels` were drawn with

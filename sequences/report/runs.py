@@ -16,9 +16,10 @@ class Scale:
     size: str
     samples: int  # of a sharp picture's pixel
     lens_samples: int  # of a truth's
-    truth_every: int  # frames; a multiple of measure_every
+    truth_every: int  # frames; a multiple of measure_every; of shots longer than `long` twice as many
     measure_every: int
     most_frames: int
+    long: int  # frames of longer shots that visibilities and CoC steps are compared on
     budgets: str
     orders: str
     steps: str
@@ -26,9 +27,9 @@ class Scale:
     options: tuple = ()  # of every comparison
 
 
-FULL = Scale("480x270", 16, 64, 12, 6, 10**6, "5%,15%,30%,60%,100%", "gain,fearing", "0,0.015625,0.03125,0.0625",
+FULL = Scale("480x270", 16, 64, 12, 6, 10**6, 48, "5%,15%,30%,60%,100%", "gain,fearing", "0,0.015625,0.03125,0.0625",
              "2%,5%,10%,15%,30%,60%,100%")
-QUICK = Scale("64x36", 4, 8, 2, 2, 4, "15%,100%", "gain,fearing", "0,0.03125", "15%,100%",
+QUICK = Scale("64x36", 4, 8, 2, 2, 4, 4, "15%,100%", "gain,fearing", "0,0.03125", "15%,100%",
               ("--max-coc", "60"))  # large tables take longer than such small pictures
 
 # The paper's settings (section 6): gaussian, tables in half-pixel steps, w = 0.5, no occlusion is named for the tables.
@@ -44,8 +45,14 @@ class Shot:
     truth: bool = True
     options: tuple = ()
 
+    def count(self):
+        return self.last - self.first + 1
+
     def frames(self, every=1):
         return f"{self.first}-{self.last}" + (f"x{every}" if every > 1 else "")
+
+    def truth_every(self, scale):
+        return scale.truth_every * (2 if self.count() > scale.long else 1)
 
 
 @dataclasses.dataclass
@@ -109,14 +116,15 @@ def run_shot(tool, work, shot, scale):
     inputs = [f"{shot.name}.####.exr"]
     measured = [*shot.options, *scale.options, "--measure-every", scale.measure_every]
     if shot.truth:
-        truth = [*base, "--frames", shot.frames(scale.truth_every), "--truth", scale.lens_samples]
+        truth = [*base, "--frames", shot.frames(shot.truth_every(scale)), "--truth", scale.lens_samples]
         commands.append(shown(truth))
         run(truth, folder)
         measured += ["--truth", f"{shot.name}.truth.####.exr"]
+    part = ["--frames", f"{shot.first}-{shot.first + scale.long - 1}"] if shot.count() > scale.long else []
     sets = {
-        "visibilities": ["--visibilities", "none;layers;bitmap", "--budgets", "100%", "--no-quantisation"],
+        "visibilities": [*part, "--visibilities", "none;layers;bitmap", "--budgets", "100%", "--no-quantisation"],
         "budgets": ["--budgets", scale.budgets, "--orders", scale.orders, "--no-quantisation"],
-        "steps": ["--coc-steps", scale.steps, "--budgets", "100%"],
+        "steps": [*part, "--coc-steps", scale.steps, "--budgets", "100%"],
     }
     if shot.name in EXPERIMENTS:
         budgets = scale.figure_4 if EXPERIMENTS[shot.name] == 5 else "100%"
