@@ -7,6 +7,7 @@
 `pullfocus render` and `pullfocus compare` do the work, each on one thread, --jobs of them at a time.
 """
 import argparse
+import json
 import pathlib
 import sys
 import time
@@ -28,6 +29,7 @@ def arguments():
                         help="shots rendered by Cycles; left out if the folder is not there")
     parser.add_argument("--shots", help="A,B,...: these only")
     parser.add_argument("--jobs", default=2, type=int, help="programs at a time")
+    parser.add_argument("--again", action="store_true", help="run nothing: write the document from the last run's results")
     a = parser.parse_args()
     if a.jobs < 1:
         parser.error("--jobs must be at least 1")
@@ -51,11 +53,14 @@ def main():
         shots = [shot for shot in shots if shot.name in a.shots.split(",")]
     start = time.monotonic()
     try:
-        results = runs.run_all(a.tool, a.work, shots, scale, a.data, a.jobs)
+        results = runs.run_all(runs.Program(a.tool, a.again), a.work, shots, scale, a.data, a.jobs)
         runs.check(results)
     except runs.Failed as problem:
         sys.exit(f"speed_vs_error: {problem}")
-    document.write(a.document, results, scale, a.tool, a.jobs, time.monotonic() - start)
+    conditions = a.work / "conditions.json"
+    if not a.again:
+        conditions.write_text(json.dumps(document.conditions(a.tool, a.jobs, time.monotonic() - start)))
+    document.write(a.document, results, scale, json.loads(conditions.read_text()))
     print(f"{a.document}: {len(results.shots)} shots in {time.monotonic() - start:.0f} s")
 
 

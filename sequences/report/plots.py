@@ -26,14 +26,14 @@ def front(points):
 
 
 def pareto(path, shots, value, title_y):
-    """A panel a shot: median ms a frame against an error. `shots`: {name: {series: (colour, point type, points)}}."""
+    """A panel a shot: time a frame against an error. `shots`: {name: {series: (colour, point type, points)}}."""
     columns = 3
     rows = -(-len(shots) // columns)
     text = f"set terminal svg size 1080,{90 + 300 * rows} font 'sans,12' background '#ffffff'\nset output '{path}'\n"
     text += f"set multiplot layout {rows},{columns} margins 0.065,0.985,{0.36 / rows},{1 - 0.09 / rows} spacing 0.065,{0.24 / rows}\n"
     text += "set logscale x\nset grid lc '#d9dde2'\nset border 3\nset tics nomirror\nunset key\n"
     for i, (name, series) in enumerate(shots.items()):
-        text += f"set title '{name}' offset 0,-0.6\nset xlabel 'ms a frame' offset 0,0.6\n"
+        text += f"set title '{name}' offset 0,-0.6\nset xlabel 'time / linear' offset 0,0.6\n"
         text += f"set ylabel '{title_y if i % columns == 0 else ''}' offset 1\n"
         everything = [p for _, _, points in series.values() for p in points]
         low, high = min(x for x, _ in everything), max(x for x, _ in everything)

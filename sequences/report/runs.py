@@ -12,6 +12,15 @@ class Failed(Exception):
 
 
 @dataclasses.dataclass(frozen=True)
+class Program:
+    path: pathlib.Path
+    again: bool = False  # run nothing: take what an earlier run left in the folder
+
+    def __str__(self):
+        return str(self.path)
+
+
+@dataclasses.dataclass(frozen=True)
 class Scale:
     size: str
     samples: int  # of a sharp picture's pixel
@@ -86,6 +95,8 @@ def all_shots(folder, scale):
 
 
 def run(words, folder):
+    if words[0].again:
+        return
     done = subprocess.run([str(word) for word in words], cwd=folder, capture_output=True, text=True)
     if done.returncode != 0:
         raise Failed(f"{' '.join(str(word) for word in words)}: {done.stderr.strip().splitlines()[-1:]}")
@@ -107,7 +118,7 @@ def run_shot(tool, work, shot, scale):
     """Renders a shot and runs all comparisons on it."""
     folder = work / shot.name
     folder.mkdir(parents=True, exist_ok=True)
-    for old in folder.glob("*"):
+    for old in folder.glob("*") if not tool.again else ():
         old.unlink()
     base = [tool, "render", shot.name, "-o", ".", "--size", scale.size, "--threads", "1"]
     pictures = [*base, "--frames", shot.frames()] + (["--samples", scale.samples] if shot.truth else [])

@@ -63,6 +63,21 @@ def choice(name, sets):
     return text
 
 
+def budget_speeds(results):
+    """How partial budgets compare with 100 % in time, over shots."""
+    parts = []
+    for budget in sorted({percent(row) for sets in results.shots.values() for row in partial_rows(sets["budgets"])}):
+        ratios = []
+        for sets in results.shots.values():
+            row = next(r for r in partial_rows(sets["budgets"]) if percent(r) == budget and r["order"] == "gain")
+            ratios.append(row["median_ms"] / full(sets["budgets"])["median_ms"])
+        faster = sum(ratio < 0.95 for ratio in ratios)
+        parts.append(f"{budget:g} % in {faster} ({min(ratios):.2f} to {max(ratios):.2f} times)")
+    return ("A partial budget is not always faster, as what it leaves over waits for later frames. Shots of "
+            f"{len(results.shots)} whose median frame took less than 0.95 of the time at 100 %, order `gain`, and the range "
+            "over all shots: " + ", ".join(parts) + ".")
+
+
 def overview(results):
     rows = []
     for name, sets in results.shots.items():
