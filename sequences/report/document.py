@@ -3,6 +3,7 @@ import os
 import pathlib
 import platform
 import re
+import statistics
 import subprocess
 import textwrap
 
@@ -31,22 +32,31 @@ def compiler(tool):
 
 
 def pareto_series(sets):
-    """Points of all filters by visibility: time over that of linear with the defaults in the same run, FLIP to the truth."""
+    """Points of all filters by visibility, over the frames that all runs have: time over that of linear with the defaults
+    in the same run, FLIP to the truth."""
     series = {}
-    for kind in ("visibilities", "budgets", "steps"):
-        defaults = next(row for row in sets[kind].shot["filters"] if row["method"] == "linear"
-                        and row["coc_step"] == 0.03125 and row["visibility"] in ("auto", "layers"))
-        for row in sets[kind].shot["filters"]:
+    common = {frame["frame"] for frame in sets["visibilities"].shot["filters"][0]["frames"]}
+
+    def median_ms(row):
+        return statistics.median(f["ms"] for f in row["frames"][1:] if f["frame"] in common)
+
+    for kind in ("budgets", "visibilities", "steps"):
+        rows = sets[kind].shot["filters"]
+        is_default = {id(row): row["coc_step"] == 0.03125 and row["visibility"] in ("auto", "layers") for row in rows}
+        linear_ms = median_ms(next(row for row in rows if row["method"] == "linear" and is_default[id(row)]))
+        for row in rows:
+            if kind != "budgets" and is_default[id(row)]:
+                continue  # these are shown already
             visibility = "layers" if row["visibility"] == "auto" else row["visibility"]
-            if kind != "visibilities" and row["method"] == "linear" and row["coc_step"] == 0.03125:
-                continue  # the same filter again
             what = "linear" if row["method"] == "linear" else "incremental" if row["budget"] == "100%" else "partial"
             kinds = {"linear": 5, "incremental": 7, "partial": 2}
             label = f"{visibility}, {what}" + (f" {row['order']}" if what == "partial" else "")
             colour = plots.COLOURS[visibility] if row["order"] != "fearing" else "#b3488c"
-            value = tables.error(row, "truth", "flip")
-            if value is not None:
-                series.setdefault(label, (colour, kinds[what], []))[2].append((row["median_ms"] / defaults["median_ms"], value))
+            flips = [f["errors"]["truth"]["flip"] for f in row["frames"]
+                     if f["frame"] in common and "truth" in f.get("errors", {})]
+            if flips:
+                point = (median_ms(row) / linear_ms, statistics.mean(flips))
+                series.setdefault(label, (colour, kinds[what], []))[2].append(point)
     return series
 
 
@@ -123,7 +133,8 @@ def write(path, results, scale, measured):
     text = TEXT.format(
         measured=measured_on(scale, measured), overview=tables.overview(results),
         shots=len(results.shots), with_truth=len(with_truth), by_visibility=by_visibility, good=tables.GOOD_DB,
-        scale_size_note=scale.size, dear=dear, budget_speeds=indented(tables.budget_speeds(results)), gaining=sum(g >= 1.1 for g in gains), least=min(gains), most=max(gains), pareto=pareto,
+        scale_size_note=scale.size, dear=dear, budget_speeds=indented(tables.budget_speeds(results)),
+        gaining=sum(g >= 1.1 for g in gains), least=min(gains), most=max(gains), pareto=pareto,
         visibilities=tables.visibilities(results), orders=tables.orders(results), steps=tables.steps(results),
         table_1=total, table_2=update, figure_4_plot=budgets,
         figure_4=tables.figure_4(results) if budgets else "", cycles=cycles_details(results),
@@ -149,7 +160,7 @@ Layers, disc, CoC steps of 1/32 (the defaults); median ms a frame after the firs
 incremental's, frame by frame, so that it need not be the ratio of the medians. *Nearest to the truth*: the visibility whose linear picture has the lowest FLIP.
 
 - **Method.** `incremental` gives linear's bits. In {gaining} of {shots} shots it was at least 1.1 times as fast; from {least:.2f} to
-  {most:.1f} times over all. 
+  {most:.1f} times over all.
 {dear}
 - **Visibility.** Of {with_truth} shots with a truth, nearest to it: {by_visibility}.
 - **Budget.** A partial one is listed if its PSNR against linear is {good} dB or more and it is at least 1.15 times as fast as
@@ -159,7 +170,8 @@ incremental's, frame by frame, so that it need not be the ratio of the medians. 
 {pareto}
 Every filter of six shots: median time a frame over that of linear with the defaults in the same run (logarithmic) against
 FLIP to the truth; less is better in both. Squares: linear, discs: incremental at 100 %, crosses: partial budgets. Dashed: the
-Pareto front, filters that no other one beats in both.
+Pareto front, filters that no other one beats in both. Of longer shots the frames that visibilities were compared on; blue also
+stands for other CoC steps.
 
 ## Visibilities
 

@@ -5,6 +5,9 @@ import subprocess
 COLOURS = {"none": "#cc5200", "layers": "#0067a9", "bitmap": "#00835f"}
 
 
+TICKS = ", ".join(f"'{digit * 10.0**power:g}' {digit * 10.0**power:g}" for power in range(-4, 4) for digit in (1, 2, 5))
+
+
 def gnuplot(script):
     done = subprocess.run(["gnuplot"], input=script, capture_output=True, text=True)
     if done.returncode != 0:
@@ -30,8 +33,8 @@ def pareto(path, shots, value, title_y):
     columns = 3
     rows = -(-len(shots) // columns)
     text = f"set terminal svg size 1080,{90 + 300 * rows} font 'sans,12' background '#ffffff'\nset output '{path}'\n"
-    text += f"set multiplot layout {rows},{columns} margins 0.065,0.985,{0.36 / rows},{1 - 0.09 / rows} spacing 0.065,{0.24 / rows}\n"
-    text += "set logscale x\nset grid lc '#d9dde2'\nset border 3\nset tics nomirror\nunset key\n"
+    text += f"set multiplot layout {rows},{columns} margins 0.075,0.985,{0.36 / rows},{1 - 0.09 / rows} spacing 0.065,{0.24 / rows}\n"
+    text += f"set logscale x\nunset mxtics\nset xtics ({TICKS})\nset grid lc '#d9dde2'\nset border 3\nset tics nomirror\nunset key\n"
     for i, (name, series) in enumerate(shots.items()):
         text += f"set title '{name}' offset 0,-0.6\nset xlabel 'time / linear' offset 0,0.6\n"
         text += f"set ylabel '{title_y if i % columns == 0 else ''}' offset 1\n"
