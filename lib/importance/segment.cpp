@@ -28,8 +28,8 @@ HWY_INLINE hn::Vec<D> LensDiameters(D d, const CocFunction& coc, hn::Vec<D> dept
   }
 }
 
-// A background of kind coc has diameter 0, which no factor changes. Factors of 1 are left out: finding what changed would
-// be slower for them.
+// A background of kind coc has diameter 0, which no factor changes. Factors of 1 are left out: finding what changed
+// would be slower for them.
 template <DepthKind kind, bool scaled, class D>
 HWY_INLINE hn::Vec<D> Diameters(D d, const CocFunction& coc, hn::Vec<D> depth) {
   const auto zero = hn::Zero(d), c = LensDiameters<kind>(d, coc, depth);

@@ -27,7 +27,8 @@ TEST(Inspect, ExplainsOnePixel) {
   const std::string command = fmt::format("inspect '{}' --explain ", folder / "shot.####.exr");
   const Outcome outcome = run(command + "5,8");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  expect_words(outcome.out, {"5,8: depth 2;", "CoC 0.000 px", "layer -2 to 2 px: weight", "pixels cover it", "from 5,8"});
+  expect_words(outcome.out,
+               {"5,8: depth 2;", "CoC 0.000 px", "layer -2 to 2 px: weight", "pixels cover it", "from 5,8"});
   EXPECT_EQ(run(command + "500,8").code, 2);
 }
 
