@@ -149,19 +149,16 @@ void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const Edg
   edges_ += edges.committed;
   commit(*frame_, core_.sanitiser, pending_, selected, state_);
   if (core_.occlusion) core_.occlusion->take(*frame_, depth_kind_, state_, selected);
-  sums_.clear();
+  sums_.begin_anew();
   Sources sources{&state_};
   sources.occlusion = core_.hidden();
   const std::vector<LayerWork> work = by_layer(whole_state(state_), core_.layers, state_, nullptr);
   for (const LayerWork& layer : work) make_room(layer);
   core_.scatter.run(work, sources, lanes(), core_.threads, [&](int y, std::span<const LayerRow> rows) {
-    for (const LayerRow& row : rows) {
-      for (const ColumnSpan& span : row.spans) {
-        sums_.add(row.layer, y, span, row.values + static_cast<std::ptrdiff_t>(span.x0) * lanes());
-      }
-    }
+    sums_.replace_row(y, rows);
     resolve_rows(rows, lanes(), y, state_.colour, result_, core_.layers.near(), core_.behind());
   });
+  sums_.end_anew();
   dirty_.reset(core_.window.width(), core_.window.height());
   stats_.edges += edges_;
   stats_.updated += count_pixels(selected);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kTileEdges = 4000;
 
 std::int64_t edges_of(const KernelTable& kernels, std::int16_t index) noexcept {
-  return is_source(index) ? kernels.kernel(index).edge_count() : 0;
+  return is_source(index) ? kernels.edge_count(index) : 0;
 }
 
 // Edges that taking over one pixel writes.
@@ -28,11 +28,20 @@ std::size_t position(const TileGrid& grid, int x, int y) noexcept {
 
 EdgeCount edges_of_tile(const TileGrid& grid, const TileWork& work, const Pending& pending) noexcept {
   EdgeCount count;
-  for_each_tile_pixel(grid, work, [&](int, int, int x, int y) {
-    const EdgeCount pixel = edges_of_pixel(pending, position(grid, x, y));
+  const auto add = [&](std::size_t at) {
+    const EdgeCount pixel = edges_of_pixel(pending, at);
     count.written += pixel.written;
     count.committed += pixel.committed;
-  });
+  };
+  for (int i = 0; i < kTileHeight; ++i) {
+    if (work.mask.rows[i] == 0) continue;
+    const std::size_t first = position(grid, grid.x(work.tile), grid.y(work.tile) + i);
+    if (work.mask.rows[i] == first_pixels(kTileWidth)) {
+      for (std::size_t p = 0; p < kTileWidth; ++p) add(first + p);
+    } else {
+      for_each_pixel(work.mask.rows[i], [&](int p) { add(first + static_cast<std::size_t>(p)); });
+    }
+  }
   return count;
 }
 

@@ -1,7 +1,5 @@
 #include "resolve/layer_sums.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "scatter/sums.h"
@@ -29,6 +27,7 @@ void LayerSums::make_room(int layer, const Window& reached) {
       } else {
         tile = std::move(spare_.back());
         spare_.pop_back();
+        if (!anew_) std::fill_n(tile.get(), tile_words(), Accumulator{0});
       }
     }
   }
@@ -45,14 +44,38 @@ void LayerSums::add(int layer, int y, const ColumnSpan& span, const Accumulator*
   }
 }
 
-void LayerSums::clear() noexcept {
-  std::vector<Tile*> used;
+void LayerSums::begin_anew() {
   for (Tile& tile : tiles_) {
-    if (tile) used.push_back(&tile);
+    if (tile) spare_.push_back(std::move(tile));
   }
-  tbb::parallel_for(std::size_t{0}, used.size(),
-                    [&](std::size_t t) { std::fill_n(used[t]->get(), tile_words(), Accumulator{0}); });
-  for (Tile* tile : used) spare_.push_back(std::move(*tile));
+  anew_ = true;
+  is_row_new_.assign(static_cast<std::size_t>(grid_.height), 0);
+}
+
+// Rows are zero outside their spans, so they can be copied whole.
+void LayerSums::replace_row(int y, std::span<const LayerRow> rows) noexcept {
+  is_row_new_[static_cast<std::size_t>(y)] = 1;
+  for (int layer = 0; layer < layers_; ++layer) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const LayerRow& r) { return r.layer == layer; });
+    for (int x = 0; x < grid_.width; x += kTileWidth) {
+      const Tile& tile = tile_at(layer, x, y);
+      if (!tile) continue;
+      const auto n = static_cast<std::size_t>(std::min(kTileWidth, grid_.width - x)) * static_cast<std::size_t>(lanes_);
+      Accumulator* const out = tile.get() + offset(x, y);
+      if (row == rows.end()) {
+        std::fill_n(out, n, Accumulator{0});
+      } else {
+        std::copy_n(row->values + static_cast<std::ptrdiff_t>(x) * lanes_, n, out);
+      }
+    }
+  }
+}
+
+void LayerSums::end_anew() {
+  for (int y = 0; y < grid_.height; ++y) {
+    if (is_row_new_[static_cast<std::size_t>(y)] == 0) replace_row(y, {});
+  }
+  anew_ = false;
 }
 
 void LayerSums::widen() {

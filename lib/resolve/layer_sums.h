@@ -7,7 +7,7 @@
 
 #include "image/tiles.h"
 #include "image/window.h"
-#include "scatter/band.h"
+#include "scatter/scatter.h"
 
 namespace pullfocus {
 
@@ -20,8 +20,15 @@ class LayerSums {
   int lanes() const noexcept { return lanes_; }
 
   // Makes room in a layer for the pixels of `reached` (columns and rows from the window's corner; what lies outside is
-  // ignored). Not to be called while other threads add.
+  // ignored), all zero where there was none. Not to be called while other threads add.
   void make_room(int layer, const Window& reached);
+
+  // Gives all sums new values, with less traffic than clearing and adding: after begin_anew(), make room for all that
+  // the layers reach, hand over every row that is not zero with replace_row() (different rows from different threads),
+  // and end_anew().
+  void begin_anew();
+  void replace_row(int y, std::span<const LayerRow> rows) noexcept;
+  void end_anew();
 
   // Adds a span of a row. Spans are whole cells of a band, so they may begin and end with zeros for which no room was
   // made: these are left out. Different rows may be added to by different threads.
@@ -33,9 +40,6 @@ class LayerSums {
     const Tile& tile = tile_at(layer, x, y);
     return tile ? tile.get() + offset(x, y) : nullptr;
   }
-
-  // All sums zero; the memory is kept for those that make room next.
-  void clear() noexcept;
 
   // From kOpaqueLanes to kAlphaLanes, with the alpha of sources that are all opaque.
   void widen();
@@ -62,7 +66,9 @@ class LayerSums {
   TileGrid grid_;
   int layers_ = 0, lanes_ = kOpaqueLanes;
   std::vector<Tile> tiles_;  // layer after layer
-  std::vector<Tile> spare_;  // zero
+  std::vector<Tile> spare_;  // of any content
+  bool anew_ = false;        // between begin_anew() and end_anew()
+  std::vector<std::uint8_t> is_row_new_;
 };
 
 }  // namespace pullfocus

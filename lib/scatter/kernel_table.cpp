@@ -111,7 +111,10 @@ KernelTable::KernelTable(const KernelOptions& options)
   if (!point_symmetric) {
     for (const Kernel& kernel : kernels_) in_front_.push_back(reflected(kernel));
   }
-  for (const Kernel& kernel : kernels_) areas_.push_back(area_of(kernel));
+  for (const Kernel& kernel : kernels_) {
+    areas_.push_back(area_of(kernel));
+    edges_.push_back(kernel.edge_count());
+  }
   overlap_bound_ = largest_overlap(kernels_);
   const double limit = std::ldexp(1.0, 23) / overlap_bound_ - 1;
   if (static_cast<double>(options.max_radiance) > limit) {

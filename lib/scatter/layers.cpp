@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "image/error.h"
@@ -47,20 +46,6 @@ int Layers::near() const noexcept {
 
 namespace {
 
-struct Bounds {
-  int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min();
-
-  void widen(const std::int16_t* index) noexcept {
-    std::int16_t low = index[0], high = index[0];
-    for (int i = 1; i < kTileWidth; ++i) {  // simple enough for vectors
-      low = std::min(low, index[i]);
-      high = std::max(high, index[i]);
-    }
-    least = std::min<int>(least, low);
-    most = std::max<int>(most, high);
-  }
-};
-
 // One tile's part in every layer.
 void split(const TileWork& work, const TileGrid& grid, const Layers& layers, const SourceState& state,
            const std::int16_t* pending, TileWork* parts) {
@@ -70,13 +55,12 @@ void split(const TileWork& work, const TileGrid& grid, const Layers& layers, con
     const std::size_t row = static_cast<std::size_t>(grid.y(work.tile) + i) * static_cast<std::size_t>(grid.width) +
                             static_cast<std::size_t>(grid.x(work.tile));
     if (work.mask.rows[i] == first_pixels(kTileWidth)) {  // mostly of one layer
-      Bounds bounds;
-      bounds.widen(&state.index[row]);
-      if (pending != nullptr) bounds.widen(&pending[row]);
+      IndexBounds bounds = bounds_of_tile_row(&state.index[row]);
+      if (pending != nullptr) bounds.widen(bounds_of_tile_row(&pending[row]));
       if (layers.share_one(bounds.least, bounds.most)) {
         TileWork& part = parts[layers.of(bounds.most)];
         part.mask.rows[i] = work.mask.rows[i];
-        part.max_index = std::max({part.max_index, std::abs(bounds.least), std::abs(bounds.most)});
+        part.max_index = std::max(part.max_index, bounds.largest());
         continue;
       }
     }

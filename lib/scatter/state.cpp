@@ -23,6 +23,14 @@ std::vector<TileWork> whole_state(const SourceState& state) {
     work.tile = tile;
     for (int i = 0; i < grid.tile_height(tile); ++i) {
       const std::int16_t* index = row_of(state, grid.y(tile) + i) + grid.x(tile);
+      if (grid.tile_width(tile) == kTileWidth) {
+        const IndexBounds bounds = bounds_of_tile_row(index);
+        if (is_source(static_cast<std::int16_t>(bounds.least))) {
+          work.mask.rows[i] = first_pixels(kTileWidth);
+          work.max_index = std::max(work.max_index, bounds.largest());
+          continue;
+        }
+      }
       for (int p = 0; p < grid.tile_width(tile); ++p) {
         if (index[p] == kNeverCommitted) continue;
         work.mask.rows[i] |= std::uint64_t{1} << p;
@@ -40,7 +48,7 @@ std::int64_t committed_edges(const SourceState& state, const KernelTable& kernel
   tbb::parallel_for(0, height, [&](int y) {
     const std::int16_t* index = row_of(state, y);
     std::int64_t sum = 0;
-    for (int x = 0; x < width; ++x) sum += is_source(index[x]) ? kernels.kernel(index[x]).edge_count() : 0;
+    for (int x = 0; x < width; ++x) sum += is_source(index[x]) ? kernels.edge_count(index[x]) : 0;
     rows[static_cast<std::size_t>(y)] = sum;
   });
   return std::accumulate(rows.begin(), rows.end(), std::int64_t{0});

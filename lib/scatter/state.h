@@ -1,6 +1,7 @@
 // What sources are made of: a colour and a signed CoC index per pixel.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -23,6 +24,27 @@ inline bool is_source(std::int16_t index) noexcept { return index > kHeldOut; }
 
 // |index| of a source; 0, which reaches the pixel alone, for all others.
 inline int reach_index(std::int16_t index) noexcept { return is_source(index) ? std::abs(int{index}) : 0; }
+
+// The smallest and the largest of some indices.
+struct IndexBounds {
+  int least, most;
+
+  int largest() const noexcept { return std::max(std::abs(least), std::abs(most)); }  // |index|
+  void widen(const IndexBounds& other) noexcept {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+  }
+};
+
+// Of kTileWidth indices.
+inline IndexBounds bounds_of_tile_row(const std::int16_t* index) noexcept {
+  std::int16_t low = index[0], high = index[0];
+  for (int i = 1; i < kTileWidth; ++i) {  // simple enough for the compiler to use vectors
+    low = std::min(low, index[i]);
+    high = std::max(high, index[i]);
+  }
+  return {low, high};
+}
 
 // The per-pixel last state (Fearing 1996, section 4.1: I_l and C_l), sanitised.
 struct SourceState {
