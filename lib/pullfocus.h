@@ -2,9 +2,9 @@
 //
 // The whole story, in the order the data flows:
 //
-//   image/       Window, ColourImage, Plane; Frame = RGBA colour + depth over one window
+//   image/       Window, ColourImage, Plane; Frame = RGBA colour + depth + holdout mask over one window
 //   camera/      ThinLens and a depth kind give a CocFunction: depth -> signed circle of confusion in pixels;
-//                KeyedValue: focus, f-number and focal length over frames
+//                KeyedValue: focus, f-number and focal length over frames; repair_depth()
 //   importance/  what changed against the committed state, how noticeable it is, which of it a budget affords
 //   scatter/     KernelShape; kernels as run edges; sources into destination bands
 //   resolve/     sums of weighted colour divided by sums of weight; layers laid front to back
@@ -34,6 +34,7 @@
 #pragma once
 
 #include "camera/depth.h"
+#include "camera/depth_repair.h"
 #include "camera/keys.h"
 #include "camera/thin_lens.h"
 #include "filter/explain.h"

@@ -51,6 +51,7 @@ class Detector {
         thresholds_(thresholds),
         pending_(pending),
         frame_(frame),
+        has_mask_(frame.has_mask()),
         kind_(kind),
         occlusion_(occlusion),
         grid_(grid_of(state.colour.window())) {}
@@ -79,7 +80,15 @@ class Detector {
     // What was committed is sane, so equal bits are equal sane colours.
     const std::uint64_t key = occlusion_ == nullptr ? 0 : changed_keys(index, x, y, n);
     if ((difference.index | difference.colour | key) == 0) return 0;
+    return changed_pixels(x, y, n, difference, key, index, max_index, row);
+  }
 
+  // Apart, so that segments without any change, most of all, do not pay for it.
+  [[gnu::noinline]] std::uint64_t changed_pixels(int x, int y, int n, const SegmentDifference& difference,
+                                                 std::uint64_t key, const std::int16_t* index, int& max_index,
+                                                 TileRow& row) const {
+    const std::int16_t* committed = &state_.index[at(grid_, x, y)];
+    const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
     Pixel<type> pixels[kTileWidth];
     ingest_.sanitised(x, y, n, pixels, row.findings);
     std::uint64_t changed = difference.index | key;
@@ -96,8 +105,8 @@ class Detector {
   }
 
   std::uint64_t changed_keys(const std::int16_t* index, int x, int y, int n) const noexcept {
-    return occlusion_->changed_keys(kind_, frame_.depth.row(frame_.window().y0 + y) + x,
-                                    frame_.has_mask() ? index : nullptr, x, y, n);
+    return occlusion_->changed_keys(kind_, frame_.depth.row(frame_.window().y0 + y) + x, has_mask_ ? index : nullptr, x,
+                                    y, n);
   }
 
   std::uint64_t beyond_thresholds(std::uint64_t changed, std::uint64_t key, const Pixel<type>* is,
@@ -124,6 +133,7 @@ class Detector {
   const ChangeThresholds& thresholds_;
   std::vector<std::int16_t>& pending_;
   const Frame& frame_;
+  const bool has_mask_;
   const DepthKind kind_;
   const Occlusion* occlusion_;
   const TileGrid grid_;

@@ -18,7 +18,8 @@ void FrameFindings::add(const FrameFindings& other) noexcept {
 template <SampleType type>
 void SegmentIngest<type>::indices(int x, int y, int n, std::int16_t* out, FrameFindings& findings) const noexcept {
   const SegmentFindings segment = signed_indices(to_index_, depths(x, y), n, out);
-  if (frame_.has_mask()) hold_out(x, y, n, out);
+  if (has_mask_) [[unlikely]]
+    hold_out(x, y, n, out);
   add(x, y, n, segment, out, findings);
 }
 
@@ -29,7 +30,7 @@ SegmentDifference SegmentIngest<type>::compare(int x, int y, int n, const Pixel<
   const SegmentPair<type> pair{depths(x, y), colours(x, y), old_colours, old_index, n};
   SegmentDifference difference;
   const SegmentFindings segment = pullfocus::compare<type>(to_index_, pair, out, difference);
-  if (frame_.has_mask()) {
+  if (has_mask_) [[unlikely]] {
     hold_out(x, y, n, out);
     difference.index = 0;
     for (int i = 0; i < n; ++i) difference.index |= std::uint64_t{out[i] != old_index[i]} << i;

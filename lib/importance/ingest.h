@@ -29,7 +29,11 @@ template <SampleType type>
 class SegmentIngest {
  public:
   SegmentIngest(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser)
-      : frame_(frame), to_index_(coc, table), sanitiser_(sanitiser), window_(frame.window()) {}
+      : frame_(frame),
+        to_index_(coc, table),
+        sanitiser_(sanitiser),
+        window_(frame.window()),
+        has_mask_(frame.has_mask()) {}
 
   // Pixels x .. x + n - 1 (n <= kTileWidth) of row y, from the window's corner.
   const Pixel<type>* colours(int x, int y) const noexcept {
@@ -67,6 +71,7 @@ class SegmentIngest {
   const DepthToIndex to_index_;
   const Sanitiser& sanitiser_;
   const Window window_;
+  const bool has_mask_;
 };
 
 }  // namespace pullfocus

@@ -85,14 +85,13 @@ HWY_INLINE SegmentFindings Index(const DepthToIndex& to_index, const float* dept
 }
 
 SegmentFindings SignedIndices(const DepthToIndex& to_index, const float* depth, int n, std::int16_t* index) {
-  const CocScale& artistic = to_index.coc.artistic;
   const bool coc = to_index.coc.kind == DepthKind::coc;
-  if (artistic.in_front == 1 && artistic.behind == 1) {
-    return coc ? Index<DepthKind::coc, false>(to_index, depth, n, index)
-               : Index<DepthKind::planar, false>(to_index, depth, n, index);
+  if (to_index.scaled) {
+    return coc ? Index<DepthKind::coc, true>(to_index, depth, n, index)
+               : Index<DepthKind::planar, true>(to_index, depth, n, index);
   }
-  return coc ? Index<DepthKind::coc, true>(to_index, depth, n, index)
-             : Index<DepthKind::planar, true>(to_index, depth, n, index);
+  return coc ? Index<DepthKind::coc, false>(to_index, depth, n, index)
+             : Index<DepthKind::planar, false>(to_index, depth, n, index);
 }
 
 // True if two runs of `bytes` bytes are equal.

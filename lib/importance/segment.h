@@ -16,9 +16,13 @@ struct DepthToIndex {
   CocFunction coc;
   float max_diameter = 0;               // pixels; CocTable::max_diameter()
   const std::int32_t* cells = nullptr;  // CocTable::cells()
+  bool scaled = false;                  // by artistic factors other than 1
 
   DepthToIndex(const CocFunction& function, const CocTable& table) noexcept
-      : coc(function), max_diameter(table.max_diameter()), cells(table.cells()) {}
+      : coc(function),
+        max_diameter(table.max_diameter()),
+        cells(table.cells()),
+        scaled(function.artistic.in_front != 1 || function.artistic.behind != 1) {}
 };
 
 struct SegmentFindings {
