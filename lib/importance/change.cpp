@@ -15,6 +15,13 @@ bool is_opaque(const Pixel<type>& pixel) noexcept {
   return pixel.rgba[3] == (type == SampleType::half ? 0x3c00u : 0x3f800000u);
 }
 
+template <SampleType type>
+bool are_opaque(const Pixel<type>* pixels, int n) noexcept {
+  bool all = true;
+  for (int i = 0; i < n; ++i) all &= is_opaque<type>(pixels[i]);
+  return all;
+}
+
 std::size_t at(const TileGrid& grid, int x, int y) noexcept {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
 }
@@ -90,18 +97,33 @@ class Detector {
     const std::int16_t* committed = &state_.index[at(grid_, x, y)];
     const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
     Pixel<type> pixels[kTileWidth];
-    ingest_.sanitised(x, y, n, pixels, row.findings);
+    const bool sane = ingest_.sanitised(x, y, n, pixels, row.findings);
     std::uint64_t changed = difference.index | key;
-    for_each_pixel(difference.colour, [&](int i) { changed |= std::uint64_t{!(pixels[i] == old[i])} << i; });
-    if (thresholds_.any()) changed = beyond_thresholds(changed, key, pixels, old, index, committed);
-    for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
-    if (changed != 0) {
-      std::copy(index, index + n, &pending_[at(grid_, x, y)]);
-      for_each_pixel(changed, [&](int i) {
-        max_index = std::max({max_index, reach_index(committed[i]), reach_index(index[i])});
-      });
+    if (sane) {
+      changed |= difference.colour;
+    } else {
+      for_each_pixel(difference.colour, [&](int i) { changed |= std::uint64_t{!(pixels[i] == old[i])} << i; });
     }
+    if (thresholds_.any()) changed = beyond_thresholds(changed, key, pixels, old, index, committed);
+    if (changed == 0) return 0;
+    if (row.opaque && !are_opaque<type>(pixels, n)) {
+      for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
+    }
+    std::copy(index, index + n, &pending_[at(grid_, x, y)]);
+    max_index = std::max(max_index, reach_of(changed, committed, index));
     return changed;
+  }
+
+  // The largest |index| of the changed pixels, before and after.
+  static int reach_of(std::uint64_t changed, const std::int16_t* before, const std::int16_t* after) noexcept {
+    if (changed == first_pixels(kTileWidth)) {
+      IndexBounds bounds = bounds_of_tile_row(before);
+      bounds.widen(bounds_of_tile_row(after));
+      if (is_source(static_cast<std::int16_t>(bounds.least))) return bounds.largest();
+    }
+    int reach = 0;
+    for_each_pixel(changed, [&](int i) { reach = std::max({reach, reach_index(before[i]), reach_index(after[i])}); });
+    return reach;
   }
 
   std::uint64_t changed_keys(const std::int16_t* index, int x, int y, int n) const noexcept {
@@ -175,11 +197,9 @@ FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTa
       Pixel<type>* pixels = pixels_of<type>(state.colour, x, y);
       ingest.indices(x, y, n, index, row.findings);
       ingest.sanitised(x, y, n, pixels, row.findings);
+      row.opaque = row.opaque && are_opaque<type>(pixels, n);
       int largest = 0;
-      for (int i = 0; i < n; ++i) {
-        largest = std::max(largest, reach_index(index[i]));
-        row.opaque &= is_opaque<type>(pixels[i]);
-      }
+      for (int i = 0; i < n; ++i) largest = std::max(largest, reach_index(index[i]));
       return largest;
     };
     tbb::parallel_for(0, grid.rows(), [&](int r) {
@@ -216,6 +236,11 @@ void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<st
         const int x = grid.x(work.tile), y = grid.y(work.tile) + i;
         const Pixel<type>* in = pixels_of<type>(frame.colour, x, y);
         Pixel<type>* out = pixels_of<type>(state.colour, x, y);
+        if (work.mask.rows[i] == first_pixels(kTileWidth) && all_sane<type>(sanitiser, in, kTileWidth)) {
+          std::copy_n(in, kTileWidth, out);
+          std::copy_n(&pending[at(grid, x, y)], kTileWidth, &state.index[at(grid, x, y)]);
+          continue;
+        }
         for_each_pixel(work.mask.rows[i], [&](int p) {
           out[p] = sanitiser(in[p]);
           state.index[at(grid, x + p, y)] = pending[at(grid, x + p, y)];

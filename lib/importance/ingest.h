@@ -48,14 +48,15 @@ class SegmentIngest {
   SegmentDifference compare(int x, int y, int n, const Pixel<type>* old_colours, const std::int16_t* old_index,
                             std::int16_t* out, FrameFindings& findings) const noexcept;
 
-  // Sanitised colours; counts repairs.
-  void sanitised(int x, int y, int n, Pixel<type>* out, FrameFindings& findings) const noexcept {
+  // Sanitised colours; counts repairs. Returns whether there were none.
+  bool sanitised(int x, int y, int n, Pixel<type>* out, FrameFindings& findings) const noexcept {
     const Pixel<type>* in = colours(x, y);
     if (all_sane<type>(sanitiser_, in, n)) {
       std::copy_n(in, n, out);
-      return;
+      return true;
     }
     for (int i = 0; i < n; ++i) out[i] = sanitiser_(in[i], findings.colour);
+    return false;
   }
 
  private:

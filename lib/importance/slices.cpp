@@ -11,14 +11,10 @@ namespace {
 // What a tile costs beside its edges, in edges.
 constexpr double kTileEdges = 4000;
 
-std::int64_t edges_of(const KernelTable& kernels, std::int16_t index) noexcept {
-  return is_source(index) ? kernels.edge_count(index) : 0;
-}
-
 // Edges that taking over one pixel writes.
 EdgeCount edges_of_pixel(const Pending& pending, std::size_t at) noexcept {
   const std::int16_t was = pending.state.index[at], is = pending.index[at];
-  const std::int64_t before = edges_of(pending.kernels, was), after = edges_of(pending.kernels, is);
+  const std::int64_t before = pending.kernels.edge_count(was), after = pending.kernels.edge_count(is);
   return {was == is ? after : before + after, after - before};
 }
 

@@ -115,6 +115,7 @@ KernelTable::KernelTable(const KernelOptions& options)
     areas_.push_back(area_of(kernel));
     edges_.push_back(kernel.edge_count());
   }
+  edges_.push_back(0);
   overlap_bound_ = largest_overlap(kernels_);
   const double limit = std::ldexp(1.0, 23) / overlap_bound_ - 1;
   if (static_cast<double>(options.max_radiance) > limit) {

@@ -1,6 +1,7 @@
 // All kernels of a run: one per signed CoC index.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -33,7 +34,11 @@ class KernelTable {
     const bool front = signed_index < 0 && !in_front_.empty();
     return (front ? in_front_ : kernels_)[static_cast<std::size_t>(signed_index < 0 ? -signed_index : signed_index)];
   }
-  int edge_count(int signed_index) const noexcept { return edges_[static_cast<std::size_t>(std::abs(signed_index))]; }
+  // Of the kernel; 0 for what is no index of the table.
+  int edge_count(int signed_index) const noexcept {
+    const auto index = static_cast<std::size_t>(std::abs(signed_index));
+    return edges_[std::min(index, edges_.size() - 1)];
+  }
   bool symmetric() const noexcept { return symmetric_; }  // every kernel is its own mirror image in x and in y
   // Pixels that a flat kernel of the same spread would cover: 1 / sum of squared weights; >= 1.
   double area(int signed_index) const noexcept { return areas_[static_cast<std::size_t>(std::abs(signed_index))]; }
@@ -46,7 +51,7 @@ class KernelTable {
   std::vector<Kernel> in_front_;  // empty if every kernel is its own reflection
   bool symmetric_ = true;
   std::vector<double> areas_;  // by |index|
-  std::vector<int> edges_;     // by |index|: a reflection has as many
+  std::vector<int> edges_;     // by |index|: a reflection has as many; and a 0
   double overlap_bound_ = 0;
 };
 

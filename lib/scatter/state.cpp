@@ -48,7 +48,7 @@ std::int64_t committed_edges(const SourceState& state, const KernelTable& kernel
   tbb::parallel_for(0, height, [&](int y) {
     const std::int16_t* index = row_of(state, y);
     std::int64_t sum = 0;
-    for (int x = 0; x < width; ++x) sum += is_source(index[x]) ? kernels.edge_count(index[x]) : 0;
+    for (int x = 0; x < width; ++x) sum += kernels.edge_count(index[x]);
     rows[static_cast<std::size_t>(y)] = sum;
   });
   return std::accumulate(rows.begin(), rows.end(), std::int64_t{0});
