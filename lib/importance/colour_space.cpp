@@ -59,8 +59,7 @@ ColourMetric::ColourMetric(ColourDistance distance, const Chromaticities& chroma
 }
 
 // CIE 15: L* = 116 Y^(1/3) - 16 above Y = (6/29)^3, (29/3)^3 Y below; u* = 13 L* (u' - u'_white), v* alike.
-std::array<double, 3> ColourMetric::operator()(const std::array<double, 3>& rgb) const noexcept {
-  if (distance_ == ColourDistance::rgb) return rgb;
+std::array<double, 3> ColourMetric::cieluv(const std::array<double, 3>& rgb) const noexcept {
   Vector xyz{};
   for (std::size_t i = 0; i < 3; ++i) {
     xyz[i] = to_xyz_[i][0] * rgb[0] + to_xyz_[i][1] * rgb[1] + to_xyz_[i][2] * rgb[2];

@@ -30,9 +30,13 @@ class ColourMetric {
 
   // Any finite values; luminance below black continues L* linearly, and a colour without a chromaticity (its sum of
   // tristimulus values is not positive) counts as grey.
-  std::array<double, 3> operator()(const std::array<double, 3>& rgb) const noexcept;
+  std::array<double, 3> operator()(const std::array<double, 3>& rgb) const noexcept {
+    return distance_ == ColourDistance::rgb ? rgb : cieluv(rgb);
+  }
 
  private:
+  std::array<double, 3> cieluv(const std::array<double, 3>& rgb) const noexcept;
+
   ColourDistance distance_ = ColourDistance::rgb;
   std::array<std::array<double, 3>, 3> to_xyz_{};  // rows X, Y, Z; white has Y = 1
   double white_u_ = 0, white_v_ = 0;               // u', v' of white

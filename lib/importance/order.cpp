@@ -22,7 +22,12 @@ template <SampleType type>
 class PixelChange {
  public:
   PixelChange(const Pending& pending, const ImportanceOptions& options)
-      : pending_(pending), options_(options), window_(pending.frame.window()) {}
+      : pending_(pending), options_(options), window_(pending.frame.window()) {
+    for (int index = 0; index < pending.kernels.coc().size(); ++index) {
+      const double area = pending.kernels.area(index);
+      shares_.push_back({1 / area, 1 / std::sqrt(std::sqrt(area))});
+    }
+  }
 
   float priority(int x, int y) const noexcept {
     const std::size_t at = position(x, y);
@@ -57,13 +62,13 @@ class PixelChange {
     const std::int16_t was = pending_.state.index[at], is = pending_.index[at];
     const Colour now = new_colour(x, y), then = old_colour(x, y);
     const Colour change = difference(now, then);
-    const double area_now = pending_.kernels.area(kernel_of(is)), area_then = pending_.kernels.area(kernel_of(was));
     const double changed = product(change, change);
-    const double of_colour = changed / std::sqrt(std::sqrt(std::min(area_now, area_then)));
+    const Shares &now_of = shares(is), &then_of = shares(was);
+    const double of_colour = changed * std::max(now_of.fourth_root, then_of.fourth_root);
     if (was == is) return of_colour;
     const Colour result = shown(x, y), a = difference(now, result), b = difference(then, result);
-    const double of_kernel =
-        product(a, a) / area_now + product(b, b) / area_then - 2 * product(a, b) / std::max(area_now, area_then);
+    const double of_kernel = product(a, a) * now_of.area + product(b, b) * then_of.area -
+                             2 * product(a, b) * std::min(now_of.area, then_of.area);
     return changed > 0 ? std::max(of_kernel, of_colour) : of_kernel * spread(at);
   }
 
@@ -72,8 +77,7 @@ class PixelChange {
 
   // In [0, 1), another for every pixel and call.
   double spread(std::size_t at) const noexcept {
-    return std::ldexp(static_cast<double>(scrambled(static_cast<std::uint32_t>(at) + 0x9e3779b9u * pending_.round)),
-                      -32);
+    return 0x1p-32 * static_cast<double>(scrambled(static_cast<std::uint32_t>(at) + 0x9e3779b9u * pending_.round));
   }
 
   Colour colour(const Pixel<type>& pixel) const noexcept {
@@ -87,15 +91,27 @@ class PixelChange {
     return colour(pending_.sanitiser(load_pixel<type>(pending_.frame.colour.pixel(window_.x0 + x, window_.y0 + y))));
   }
   Colour shown(int x, int y) const noexcept {
-    const auto sample = [&](int c) {
-      return static_cast<double>(pending_.shown.get(window_.x0 + x, window_.y0 + y, c));
+    const std::byte* pixel = pending_.shown.pixel(window_.x0 + x, window_.y0 + y);
+    const auto of = [&]<SampleType shown_type>(const Pixel<shown_type>& p) {
+      const auto sample = [&](int c) { return static_cast<double>(sample_value(p.rgba[c])); };
+      return options_.metric({sample(0), sample(1), sample(2)});
     };
-    return options_.metric({sample(0), sample(1), sample(2)});
+    if (pending_.shown.type() == SampleType::half) return of(load_pixel<SampleType::half>(pixel));
+    return of(load_pixel<SampleType::float32>(pixel));
+  }
+
+  // Of a kernel's area A: 1 / A and 1 / A^(1/4).
+  struct Shares {
+    double area, fourth_root;
+  };
+  const Shares& shares(std::int16_t index) const noexcept {
+    return shares_[static_cast<std::size_t>(std::abs(kernel_of(index)))];
   }
 
   const Pending& pending_;
   const ImportanceOptions& options_;
   const Window window_;
+  std::vector<Shares> shares_;  // by |index|
 };
 
 }  // namespace
