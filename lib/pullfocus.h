@@ -20,17 +20,13 @@
 //     use(filter->result(), filter->result_window());
 //
 // What holds everywhere:
-//   colours     premultiplied, scene-linear R,G,B,A; half or float32
-//   distances   scene units; lens measures in millimetres; circles of confusion are diameters in pixels, > 0
-//   behind focus exactness   with nothing left over, the incremental result equals the linear one bit for
-//   bit, whatever the history,
-//               the number of threads, the SIMD target, and where a shot is cut
-//   threads     a filter uses FilterOptions::threads threads of oneTBB inside a call; one call at a time per
-//   filter errors      pullfocus::Error, whose text names what is wrong and what to do; a frame is refused
-//   before it changes
-//               anything
-//   memory      about 64 bytes a pixel for opaque half input, 96 for float input with alpha (make_plan()
-//   tells)
+//   colours    premultiplied, scene-linear R,G,B,A; half or float32
+//   distances  scene units; lens measures in millimetres; CoC diameters in pixels, positive behind focus
+//   exactness  with nothing left over, the incremental result is the linear one bit for bit, for any history, number of
+//              threads, SIMD target, and wherever a shot is cut
+//   threads    a call uses FilterOptions::threads threads of oneTBB; one call at a time on one filter
+//   errors     pullfocus::Error, which names what is wrong and what to do; a frame is refused before anything changes
+//   memory     about 44 bytes a pixel and the frames for opaque half input, a few more with layers; make_plan() tells
 #pragma once
 
 #include "camera/depth.h"

@@ -6,9 +6,11 @@
 // scatter        committed state, frame         destination bands: old contributions out, new ones in
 // integrate      bands                          accumulators, dirty spans
 // commit         frame                          committed state
+// resolve        accumulators, dirty spans      result, and what is seen behind foregrounds
+// fill           what is seen there             result, in holes
+//
 // With bitmaps, scatter puts back what the old state hid, and pixels that begin or cease to hide others are corrected
 // before the commit; what the new state hides is taken out after it.
-// resolve        accumulators, dirty spans      result
 //
 // The invariant, at every slice border: the accumulators equal what scattering the committed state from
 // nothing would give, bit for bit. So with nothing left over the result is the linear filter's, whatever the

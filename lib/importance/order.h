@@ -33,8 +33,8 @@ inline constexpr float kFirstOfAll = std::numeric_limits<float>::infinity();
 //
 // The first term is the squared norm of a w_new - b w_old, concentric kernels overlapping as flat discs do. It misses
 // sharp pixels that R consists of (uncovered background), hence the second. That one alone counts where the kernel
-// stays: changes of neighbours add up to |dI|^2 a pixel if they are alike and to |dI|^2 / A if they are noise, and a
-// root in between costs little in either case. Where only the kernel changes, as in a focus pull, neighbours change
+// stays: changes of neighbours add up to |dI|^2 a pixel if they are alike and to |dI|^2 / A if they are noise; the
+// root lies in between. Where only the kernel changes, as in a focus pull, neighbours change
 // alike too, and the first few of them remove most of the error: there the gain is multiplied by a random number of [0,
 // 1), which spreads a partial update. Measured in docs/orders.md.
 //
