@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "filter/filter.h"
+#include "measure.h"
 #include "star_lateral.h"
 
 namespace {
@@ -66,10 +67,7 @@ struct Error {
   double rmse() const { return std::sqrt(sum / static_cast<double>(samples)); }
 };
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
+using test::median;
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "filter/filter.h"
+#include "measure.h"
 
 namespace {
 
@@ -51,10 +52,7 @@ KernelShape picture() {
   return shape;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
+using test::median;
 
 }  // namespace
 

@@ -13,6 +13,7 @@
 
 #include "filter/core.h"
 #include "filter/filter.h"
+#include "measure.h"
 #include "naive_filter.h"
 
 namespace {
@@ -54,10 +55,7 @@ Frame darker_patch(const Frame& frame, double share) {
   return changed;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
+using test::median;
 
 // Times a and b in turn and returns the median of a / b.
 double ratio(int runs, const std::function<void()>& a, const std::function<void()>& b) {

@@ -13,6 +13,7 @@
 #include "filter/core.h"
 #include "filter/filter.h"
 #include "filter/plan.h"
+#include "measure.h"
 
 namespace {
 
@@ -47,10 +48,7 @@ Frame scene(const Window& window, int cards, unsigned seed) {
   return frame;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
+using test::median;
 
 void measure(const Window& window, int cards, float radius, int bitmap_size, int runs) {
   FilterOptions options;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "filter/linear_filter.h"
+#include "occlusion_twin.h"
 #include "random_frames.h"
 #include "reference.h"
 #include "shapes.h"
@@ -16,12 +17,13 @@ struct Case {
   float largest_px;
   SampleType type;
   bool with_alpha, hostile;
+  bool with_bitmaps = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.window.width() << "x" << c.window.height() << " to " << c.largest_px << " px"
              << (c.type == SampleType::half ? " half" : " float") << (c.with_alpha ? " alpha" : "")
-             << (c.hostile ? " hostile" : "");
+             << (c.hostile ? " hostile" : "") << (c.with_bitmaps ? " bitmaps" : "");
 }
 
 FilterOptions options_for(const Case& c, unsigned seed) {
@@ -30,6 +32,12 @@ FilterOptions options_for(const Case& c, unsigned seed) {
   options.kernel.shape = shapes[seed % shapes.size()];
   options.kernel.max_coc_px = std::max(1.f, c.largest_px);
   options.output_type = SampleType::float32;
+  if (c.with_bitmaps) {
+    constexpr int sizes[] = {32, 16, 64, 2, 10};
+    constexpr double cutoffs[] = {3, 0, 1.25, 8};
+    options.visibility = {VisibilityOptions::Kind::bitmap, {}, sizes[seed / 2 % 5], cutoffs[seed % 4]};
+    return options;
+  }
   switch (seed % 3) {
     case 0:
       options.visibility.kind = VisibilityOptions::Kind::none;
@@ -68,6 +76,20 @@ Clock fake_clock() {
   return [ms = 0.]() mutable { return ms += 1; };
 }
 
+void expect_invariant(const IncrementalFilter& filter, const KernelTable& kernels,
+                      const VisibilityOptions& visibility) {
+  if (visibility.kind != VisibilityOptions::Kind::bitmap) {
+    ASSERT_TRUE(test::invariant_holds(filter, kernels));
+    return;
+  }
+  const std::vector<std::uint16_t> keys = test::committed_keys(filter);
+  for (std::size_t i = 0; i < keys.size(); ++i) {  // what is held out hides nothing
+    ASSERT_TRUE(filter.committed().index[i] != kHeldOut || keys[i] == kBackgroundKey);
+  }
+  ASSERT_TRUE(std::ranges::equal(filter.accumulators(), test::exact_sums_with_bitmaps(filter.committed(), keys, kernels,
+                                                                                      visibility, filter.lanes())));
+}
+
 class Invariant : public testing::TestWithParam<Case> {};
 
 TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndStop) {
@@ -75,7 +97,7 @@ TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndS
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const auto kernels = std::make_shared<const KernelTable>(options_for(c, seed).kernel);
     RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
-    if (seed % 2 == 1) shot.use_masks();
+    if (seed / 3 % 2 == 1) shot.use_masks();  // with every visibility
     FilterOptions options = options_for(c, seed);
     options.budget = random_budget(shot.random());
     options.slice_edges = 1 + static_cast<std::int64_t>(shot.random()() % 3000);
@@ -91,18 +113,19 @@ TEST_P(Invariant, AccumulatorsEqualAScatterOfTheCommittedStateAfterAnyBudgetAndS
       const bool stoppable = shot.random()() % 2;
       const Stats& stats =
           filter.filter(shot.frame(), coc, stoppable ? StopRequest([&] { return slices_left-- == 0; }) : StopRequest());
-      const auto expect_invariant = [&] {
+      const auto check = [&] {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", frame " << frame);
         ASSERT_EQ(stats.changed, stats.updated + stats.left_over);
         ASSERT_EQ(stats.mode == ScatterMode::unchanged, stats.updated == 0);
-        ASSERT_TRUE(test::invariant_holds(filter, *kernels)) << "seed " << seed << ", frame " << frame;
+        ASSERT_NO_FATAL_FAILURE(expect_invariant(filter, *kernels, options.visibility));
       };
-      expect_invariant();
+      ASSERT_NO_FATAL_FAILURE(check());
       if (shot.random()() % 3) continue;
       const std::int64_t left = stats.left_over;
       slices_left = static_cast<int>(shot.random()() % 3);
       filter.refine(stoppable ? StopRequest([&] { return slices_left-- == 0; }) : StopRequest());
       ASSERT_EQ(stats.changed, left);
-      expect_invariant();
+      ASSERT_NO_FATAL_FAILURE(check());
     }
   }
 }
@@ -112,7 +135,7 @@ TEST_P(Invariant, IncrementalEqualsLinearBitForBitWheneverNothingIsLeftOver) {
   for (unsigned seed = 11; seed <= 20; ++seed) {
     const auto kernels = std::make_shared<const KernelTable>(options_for(c, seed).kernel);
     RandomShot shot(c.window, seed, c.type, c.with_alpha, c.hostile);
-    if (seed % 2 == 1) shot.use_masks();
+    if (seed / 3 % 2 == 1) shot.use_masks();  // with every visibility
     FilterOptions options = options_for(c, seed);
     options.threads = 1;
     LinearFilter linear(c.window, options, kernels);
@@ -138,16 +161,19 @@ TEST_P(Invariant, IncrementalEqualsLinearBitForBitWheneverNothingIsLeftOver) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shots, Invariant,
-                         testing::Values(Case{{0, 0, 1, 1}, 20, SampleType::float32, true, true},
-                                         Case{{0, 0, 1, 7}, 40, SampleType::half, false, true},
-                                         Case{{0, 0, 9, 1}, 60, SampleType::float32, true, false},
-                                         Case{{-3, 5, 2, 8}, 100, SampleType::half, true, true},
-                                         Case{{0, 0, 17, 13}, 12, SampleType::half, false, false},
-                                         Case{{10, -20, 73, 19}, 8, SampleType::float32, true, true},
-                                         Case{{0, 0, 64, 16}, 25, SampleType::half, true, false},
-                                         Case{{0, 0, 65, 33}, 30, SampleType::float32, false, true},
-                                         Case{{0, 0, 131, 70}, 14, SampleType::half, true, true}));
+std::vector<Case> cases(bool with_bitmaps) {
+  std::vector<Case> all{
+      {{0, 0, 1, 1}, 20, SampleType::float32, true, true},  {{0, 0, 1, 7}, 40, SampleType::half, false, true},
+      {{0, 0, 9, 1}, 60, SampleType::float32, true, false}, {{-3, 5, 2, 8}, 100, SampleType::half, true, true},
+      {{0, 0, 17, 13}, 12, SampleType::half, false, false}, {{10, -20, 73, 19}, 8, SampleType::float32, true, true},
+      {{0, 0, 64, 16}, 25, SampleType::half, true, false},  {{0, 0, 65, 33}, 30, SampleType::float32, false, true},
+      {{0, 0, 131, 70}, 14, SampleType::half, true, true}};
+  for (Case& c : all) c.with_bitmaps = with_bitmaps;
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shots, Invariant, testing::ValuesIn(cases(false)));
+INSTANTIATE_TEST_SUITE_P(ShotsWithBitmaps, Invariant, testing::ValuesIn(cases(true)));
 
 class OrderOf : public testing::TestWithParam<Order> {};
 
