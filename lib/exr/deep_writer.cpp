@@ -4,13 +4,10 @@
 #include <OpenEXR/ImfDeepFrameBuffer.h>
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
-#include <fmt/format.h>
 
 #include <cstddef>
 
-#include "exr/file_check.h"
 #include "exr/temp_file.h"
-#include "image/error.h"
 
 namespace pullfocus::exr {
 namespace {
@@ -28,7 +25,7 @@ std::vector<char*> pixel_pointers(const std::vector<unsigned int>& counts, const
   return pointers;
 }
 
-void write_samples(TempFile& stream, Imf::Header header, const DeepSamples& samples) {
+void write_samples(Imf::OStream& stream, Imf::Header header, const DeepSamples& samples) {
   const Imath::Box2i box = header.dataWindow();
   const int width = box.max.x - box.min.x + 1, height = box.max.y - box.min.y + 1;
   header.setType(Imf::DEEPSCANLINE);
@@ -64,16 +61,7 @@ void write_samples(TempFile& stream, Imf::Header header, const DeepSamples& samp
 }  // namespace
 
 void write_deep_exr(const std::string& path, const Imf::Header& header, const DeepSamples& samples) {
-  TempFile stream(path);
-  try {
-    write_samples(stream, header, samples);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw Error(ErrorCode::unwritable,
-                fmt::format("{}: cannot be written: {}", path, plain_reason(error.what(), path)));
-  }
-  stream.commit();
+  write_whole(path, [&](Imf::OStream& stream) { write_samples(stream, header, samples); });
 }
 
 }  // namespace pullfocus::exr

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "exr/file_check.h"
 #include "image/error.h"
 
 namespace pullfocus::exr {
@@ -76,6 +77,19 @@ void TempFile::close() {
 void TempFile::fail(int error_number) {
   if (first_error_ == 0) first_error_ = error_number;
   refuse(final_path_, std::strerror(first_error_));
+}
+
+void write_whole(const std::string& path, const std::function<void(Imf::OStream&)>& write) {
+  TempFile stream(path);
+  try {
+    write(stream);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(ErrorCode::unwritable,
+                fmt::format("{}: cannot be written: {}", path, plain_reason(error.what(), path)));
+  }
+  stream.commit();
 }
 
 }  // namespace pullfocus::exr

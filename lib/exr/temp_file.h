@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
 
 namespace pullfocus::exr {
@@ -37,5 +38,9 @@ class TempFile : public Imf::OStream {
   int first_error_ = 0;  // kept, because OpenEXR drops what is thrown while it closes
   bool exists_ = false;
 };
+
+// Writes a file that is there whole or not at all: `write` fills the stream. What it throws beside Error is reported as
+// Error(unwritable) that names the file.
+void write_whole(const std::string& path, const std::function<void(Imf::OStream&)>& write);
 
 }  // namespace pullfocus::exr

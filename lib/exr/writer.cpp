@@ -3,17 +3,14 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <fmt/format.h>
 
-#include "exr/file_check.h"
 #include "exr/file_info.h"
 #include "exr/temp_file.h"
-#include "image/error.h"
 
 namespace pullfocus::exr {
 namespace {
 
-void write_pixels(TempFile& stream, Imf::Header header, const std::vector<OutputChannel>& channels) {
+void write_pixels(Imf::OStream& stream, Imf::Header header, const std::vector<OutputChannel>& channels) {
   const Imath::Box2i box = header.dataWindow();
   header.channels() = Imf::ChannelList();
   Imf::FrameBuffer buffer;
@@ -51,16 +48,7 @@ std::vector<OutputChannel> extra_channels(const ExtraChannels& extra) {
 }
 
 void write_exr(const std::string& path, const Imf::Header& header, const std::vector<OutputChannel>& channels) {
-  TempFile stream(path);
-  try {
-    write_pixels(stream, header, channels);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw Error(ErrorCode::unwritable,
-                fmt::format("{}: cannot be written: {}", path, plain_reason(error.what(), path)));
-  }
-  stream.commit();
+  write_whole(path, [&](Imf::OStream& stream) { write_pixels(stream, header, channels); });
 }
 
 }  // namespace pullfocus::exr
