@@ -140,7 +140,8 @@ HWY_INLINE std::uint64_t DifferingPixels(const Pixel<SampleType::float32>* a, co
   return bits;
 }
 
-// The next segments of a row are read while this one is computed, for frames that come from the last-level cache. Reaches past the end of an image, which does no harm.
+// The next segments of a row are read while this one is computed, for frames that come from the last-level cache.
+// Reaches past the end of an image, which does no harm.
 HWY_INLINE void Prefetch(const void* address, std::size_t bytes) {
   for (std::size_t b = 0; b < bytes; b += 64) hwy::Prefetch(static_cast<const std::uint8_t*>(address) + b);
 }
