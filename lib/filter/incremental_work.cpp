@@ -150,6 +150,7 @@ void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const Edg
   commit(*frame_, core_.sanitiser, pending_, selected, state_);
   if (core_.occlusion) core_.occlusion->take(*frame_, depth_kind_, state_, selected);
   sums_.begin_anew();
+  if (core_.backdrop) core_.backdrop->begin_anew();
   Sources sources{&state_};
   sources.occlusion = core_.hidden();
   const std::vector<LayerWork> work = by_layer(whole_state(state_), core_.layers, state_, nullptr);

@@ -33,6 +33,7 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
     const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
     Sources sources{&state_};
     sources.occlusion = core_.hidden();
+    if (core_.backdrop) core_.backdrop->begin_anew();
     core_.scatter.run(by_layer(tiles_, core_.layers, state_, nullptr), sources, lanes, core_.threads,
                       [&](int y, std::span<const LayerRow> rows) {
                         resolve_rows(rows, lanes, y, state_.colour, result_, core_.layers.near(), core_.behind());

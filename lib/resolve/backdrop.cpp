@@ -36,6 +36,11 @@ void Backdrop::reset() {
   chunks_.resize(count);
 }
 
+void Backdrop::begin_anew() {
+  std::fill(shows_.begin(), shows_.end(), 0);
+  std::fill(holes_.begin(), holes_.end(), 0);
+}
+
 void Backdrop::mark(int x, int y) noexcept {
   touched_[at(x, y)] = 1;
   row_touched_[static_cast<std::size_t>(y)] = 1;
@@ -53,7 +58,7 @@ void Backdrop::take(int x, int y, const Chunk& chunk) {
 
 void Backdrop::take_none(int x, int y) noexcept {
   const std::size_t i = at(x, y);
-  if ((shows_[i] | holes_[i]) == 0) return;
+  if (!chunks_[i]) return;
   chunks_[i].reset();
   shows_[i] = holes_[i] = 0;
   mark(x, y);

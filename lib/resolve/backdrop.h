@@ -42,6 +42,8 @@ class Backdrop {
 
   // Nothing is known of any pixel; no memory is held.
   void reset();
+  // Nothing is known of any pixel, as before all of them are resolved: rows that no light reaches are not handed over.
+  void begin_anew();
 
   // Takes over the chunk of row y that begins at column x. Different rows may be taken by different threads.
   void take(int x, int y, const Chunk& chunk);

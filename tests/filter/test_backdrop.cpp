@@ -230,6 +230,23 @@ TEST(Backdrop, WhatChangesFarFromAHoleReachesItAndNothingElseDoes) {
   PlainBackdrop(incremental).expect_result();
 }
 
+TEST(Backdrop, RowsThatNothingReachesAnyMoreShowNothing) {
+  // First what is behind the bar is seen above its upper end; then all of that is held out, and no light gets there.
+  const Window window{0, 0, 64, 120};
+  Frame frame = bar_frame(window, {28, 46, 36, 120}, 20, {0, 0, 1, 1});
+  LinearFilter used(window, with_layers(20)), fresh(window, with_layers(20));
+  IncrementalFilter incremental(window, with_layers(20));
+  used.filter(frame, coc_as_depth);
+  incremental.filter(frame, coc_as_depth);
+  frame.mask.reset(window, 0);
+  for_each_in({0, 0, 64, 60}, [&](int x, int y) { frame.mask.at(x, y) = 1; });
+  used.filter(frame, coc_as_depth);
+  incremental.filter(frame, coc_as_depth);
+  fresh.filter(frame, coc_as_depth);
+  EXPECT_EQ(test::difference(used.result(), fresh.result()), "");
+  EXPECT_EQ(test::difference(incremental.result(), fresh.result()), "");
+}
+
 TEST(Backdrop, HoldsNoMemoryWhereNothingIsInFront) {
   Backdrop backdrop(64, 32);
   const std::size_t empty = backdrop.bytes();
