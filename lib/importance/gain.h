@@ -1,0 +1,34 @@
+// Order::gain (see order.h) of whole tile rows.
+#pragma once
+
+#include <vector>
+
+#include "image/tiles.h"
+#include "importance/order.h"
+#include "importance/segment.h"
+
+namespace pullfocus {
+
+class Gain {
+ public:
+  Gain(const Pending& pending, const ColourMetric& metric);
+
+  // Priorities of pixels x .. x + n - 1 (n <= kTileWidth) of row y, from the window's corner; what they are where
+  // nothing has changed means nothing. Single precision, and the same bits everywhere: no operation is contracted.
+  void row(int x, int y, int n, float* out) const noexcept;
+
+ private:
+  struct Colours {
+    float channel[3][kTileWidth];
+  };
+  template <SampleType type, typename PixelAt>
+  void load(int n, PixelAt&& pixel_at, Colours& out) const noexcept;
+  template <SampleType type>
+  void load_rows(int x, int y, int n, Colours& now, Colours& then) const noexcept;
+
+  const Pending& pending_;
+  const ColourMetric& metric_;
+  std::vector<float> areas_, fourth_roots_;  // 1 / A and 1 / A^(1/4) of a kernel's area A, by |index|
+};
+
+}  // namespace pullfocus
