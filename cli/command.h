@@ -22,8 +22,9 @@ Run add_compare_command(CLI::App& app);
 Run add_inspect_command(CLI::App& app);
 Run add_render_command(CLI::App& app);
 
-// Gives `threads` threads (0: one a processor) to everything that works in parallel, until the program ends.
-void use_threads(int threads);
+// Gives `threads` threads (0: one a processor) to everything that computes in parallel, and as many to OpenEXR, until
+// the program ends or the next call. `waiting`: threads beside them that mostly wait for files or for OpenEXR's.
+void use_threads(int threads, int waiting = 0);
 
 // True once the user or the system asked the program to end (SIGINT, SIGTERM): finish the frame at hand, then
 // stop.

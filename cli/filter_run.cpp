@@ -1,61 +1,71 @@
 #include "filter_run.h"
 
-#include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
+#include <tbb/info.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "command.h"
 #include "exr/range.h"
-#include "exr/writer.h"
 #include "filter/core.h"
 #include "image/error.h"
-#include "progress.h"
-#include "version.h"
 
 namespace pullfocus::cli {
 
-OutputKind parse_output_kind(const std::string& text) {
-  if (text == "result") return OutputKind::result;
-  if (text == "coc") return OutputKind::coc;
-  if (text == "depth") return OutputKind::depth;
-  throw Error(ErrorCode::usage, "--output '" + text + "' is not known: use result, coc or depth");
-}
-
 namespace {
+
+// The stages that read and write wait for OpenEXR's threads: they must not take threads from the filter.
+constexpr int kWaitingThreads = 2;
 
 std::optional<Imf::Compression> compression_of(const RunArguments& run) {
   if (run.compression.empty()) return std::nullopt;
   return exr::parse_compression(run.compression);
 }
 
-// A name that does not end in .exr is a folder, there already or not.
-std::string output_name(const std::string& text) {
-  return text.ends_with(".exr") || text.ends_with(".EXR") || text.ends_with('/') ? text : text + '/';
-}
+// Ends the run whatever --skip-bad-frames says.
+class Interrupted : public Error {
+ public:
+  explicit Interrupted(int frame)
+      : Error(ErrorCode::content, fmt::format("interrupted before frame {}: earlier frames are complete", frame)) {}
+};
 
-void prepare_folder(const exr::OutputNames& names, bool make) {
-  if (make) {
-    std::error_code error;
-    std::filesystem::create_directories(names.folder(), error);
-    if (error) throw Error(ErrorCode::unwritable, names.folder() + ": cannot be created: " + error.message());
-  }
-  names.require_folder();
+std::string describe_method(const std::string& method, const FilterOptions& options) {
+  return fmt::format("{} kernel=\"{}\" visibility=\"{}\" coc_step={} max_coc={}", method,
+                     describe(options.kernel.shape), describe(options.visibility), options.kernel.coc_step,
+                     options.kernel.max_coc_px);
 }
 
 }  // namespace
 
+double frame_bytes_per_pixel(const ShotFrame& frame, std::optional<SampleType> output, int threads) {
+  const double input = static_cast<double>(frame.frame.colour.pixel_bytes());
+  const double result = 4. * static_cast<double>(sample_bytes(output.value_or(frame.frame.colour.type())));
+  double others = 4;  // depth
+  if (frame.frame.has_mask()) others += 4;
+  for (const exr::NamedChannel& extra : frame.selection.extra) {
+    const exr::ChannelInfo* channel = frame.file.find_channel(extra.file_name);
+    if (channel != nullptr) others += static_cast<double>(exr::sample_bytes(channel->type));
+  }
+  const std::size_t in_flight = frames_in_flight(threads);
+  const double colour = in_flight > 1 ? std::max(input, result) : input;
+  return static_cast<double>(in_flight) * (colour + others) + result;
+}
+
 FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera, const FilterArguments& filter,
                      const RunArguments& run)
     : arguments_(run),
+      threads_(filter.threads > 0 ? filter.threads : tbb::info::default_concurrency()),
       kind_(parse_output_kind(run.output_kind)),
       compression_(compression_of(run)),
       shot_((check_filter_options(filter), input), camera,
             run.skip_bad_frames ? exr::BadFrames::keep : exr::BadFrames::fail),
-      names_(output_name(run.output), shot_.sequence().pattern, shot_.frame_numbers()),
+      writer_(shot_, run.output, compression_),
       options_(filter_options(filter, shot_.facts())),
-      method_(filter.method),
-      stats_((prepare_folder(names_, run.make_folder), run.stats)) {
+      method_(describe_method(filter.method, options_)),
+      stats_((writer_.prepare_folder(run.make_folder), run.stats)),
+      slots_(frames_in_flight(threads_)),
+      reading_(threads_) {
   const exr::Sequence& sequence = shot_.sequence();
   for (const auto& frame : sequence.frames) {
     if (!frame.problem.empty()) continue;
@@ -63,121 +73,109 @@ FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera,
                        sequence.first);  // a camera that is not complete ends the run before it begins
     break;
   }
-  if (kind_ != OutputKind::result) return;
-  filter_ = make_filter(parse_method(method_), shot_.state_window(), options_);
+  if (kind_ != OutputKind::result || run.only_copy) return;
+  filter_ = make_filter(parse_method(filter.method), shot_.state_window(), options_);
 }
 
 int FilterRun::run() {
-  const auto& frames = shot_.sequence().frames;
-  {
-    Progress progress(frames.size());
-    for (const auto& frame : frames) {
-      if (interrupted()) {
-        throw Error(ErrorCode::content,
-                    fmt::format("interrupted before frame {}: earlier frames are complete", frame.frame));
-      }
-      try {
-        do_frame(frame);
-      } catch (const Error& error) {
-        if (!arguments_.skip_bad_frames || error.code() == ErrorCode::usage) throw;
-        warn(error.what());
-        failed_.insert(frame.frame);
-      }
-      progress.done(frame.frame);
-    }
-  }
+  const std::size_t count = shot_.sequence().frames.size();
+  progress_ = std::make_unique<Progress>(count);
+  if (threads_ > 1) use_threads(threads_, kWaitingThreads);
+  run_frames(count, slots_.size(), *this);
+  progress_.reset();
+  if (fatal_) std::rethrow_exception(fatal_);
   say_summary();
   return failed_.empty() ? kDone : kFrameFailed;
 }
 
-void FilterRun::do_frame(const exr::SequenceFrame& from) {
+void FilterRun::read(std::size_t frame, std::size_t slot) {
+  const exr::SequenceFrame& from = shot_.sequence().frames[frame];
+  Slot& s = slots_[slot];
+  if (interrupted()) throw Interrupted(from.frame);
   if (!from.problem.empty()) throw Error(ErrorCode::unreadable, from.problem);
-  if (arguments_.no_clobber && std::filesystem::exists(names_.path(from.frame))) {
-    kept_.insert(from.frame);
-    return;
-  }
-  FrameRecord record{from.frame, shot_.state_window(), {}, 0, 0, 0, 0};
-  const Stopwatch read;
-  shot_.read(from, current_, kind_ == OutputKind::result);
-  record.outside = current_.outside;
-  record.mixed = current_.mixed;
-  record.read_ms = read.ms();
+  s.kept = arguments_.no_clobber && std::filesystem::exists(writer_.path(from.frame));
+  if (s.kept) return;
+  s.record = FrameRecord{from.frame, shot_.state_window(), {}, 0, 0, 0, 0};
+  const Stopwatch watch;
+  reading_.execute([&] { shot_.read(from, s.read, kind_ == OutputKind::result); });
+  s.record.outside = s.read.outside;
+  s.record.mixed = s.read.mixed;
+  s.record.read_ms = watch.ms();
+}
 
-  if (kind_ == OutputKind::result) {
-    record.stats = filter_->filter(current_.frame, shot_.camera().coc(from.frame, current_.file));
-    check_strictly(record);
-  }
-  const Stopwatch write;
-  if (kind_ == OutputKind::result) {
-    write_result(from);
+void FilterRun::filter(std::size_t frame, std::size_t slot) {
+  const int number = shot_.sequence().frames[frame].frame;
+  Slot& s = slots_[slot];
+  if (interrupted()) throw Interrupted(number);
+  if (s.kept || !filters()) return;
+  s.record.stats = filter_->filter(s.read.frame, shot_.camera().coc(number, s.read.file));
+  check_strictly(s);
+  const Stopwatch watch;
+  s.result_window = filter_->result_window();
+  if (slots_.size() > 1) s.read.frame.colour = filter_->result();
+  s.record.write_ms = watch.ms();
+}
+
+void FilterRun::write(std::size_t frame, std::size_t slot) {
+  const int number = shot_.sequence().frames[frame].frame;
+  Slot& s = slots_[slot];
+  if (s.kept) {
+    kept_.insert(number);
   } else {
-    write_values(from);
+    const Stopwatch watch;
+    write_file(number, s);
+    s.record.write_ms += watch.ms();
+    stats_.write(s.record);
+    add_to_totals(s.record);
   }
-  record.write_ms = write.ms();
-  stats_.write(record);
+  progress_->done(number);
+}
 
+bool FilterRun::failed(std::size_t frame, std::exception_ptr error) {
+  const int number = shot_.sequence().frames[frame].frame;
+  fatal_ = error;
+  try {
+    std::rethrow_exception(error);
+  } catch (const Interrupted&) {
+    return false;
+  } catch (const Error& e) {
+    if (!arguments_.skip_bad_frames || e.code() == ErrorCode::usage) return false;
+    warn(e.what());
+  } catch (...) {
+    return false;
+  }
+  fatal_ = nullptr;
+  failed_.insert(number);
+  progress_->done(number);
+  return true;
+}
+
+void FilterRun::write_file(int frame, Slot& s) {
+  if (kind_ != OutputKind::result) return writer_.write_values(frame, s.read, method_, kind_);
+  const bool in_place = slots_.size() > 1 || !filters();
+  writer_.write_colour(frame, s.read, method_, in_place ? s.read.frame.colour : filter_->result(),
+                       filters() ? s.result_window : shot_.state_window(), s.scratch);
+}
+
+void FilterRun::check_strictly(const Slot& slot) const {
+  if (!arguments_.strict) return;
+  const Stats& s = slot.record.stats;
+  if (s.repaired_colour + s.repaired_depth + s.clamped_radiance == 0) return;
+  throw Error(
+      ErrorCode::content,
+      fmt::format("frame {}: {}: --strict: {} pixels with NaN or infinite colour, {} with an invalid depth in {}, {} "
+                  "beyond --max-radiance",
+                  slot.record.frame, slot.read.file.path, s.repaired_colour, s.repaired_depth,
+                  slot.read.selection.depth, s.clamped_radiance));
+}
+
+void FilterRun::add_to_totals(const FrameRecord& record) {
   totals_.repaired_colour += record.stats.repaired_colour;
   totals_.repaired_depth += record.stats.repaired_depth;
   totals_.clamped_radiance += record.stats.clamped_radiance;
   totals_.clamped_coc += record.stats.clamped_coc;
   outside_ += record.outside;
   mixed_ += record.mixed;
-}
-
-void FilterRun::check_strictly(const FrameRecord& r) const {
-  if (!arguments_.strict) return;
-  const Stats& s = r.stats;
-  if (s.repaired_colour + s.repaired_depth + s.clamped_radiance == 0) return;
-  throw Error(
-      ErrorCode::content,
-      fmt::format("frame {}: {}: --strict: {} pixels with NaN or infinite colour, {} with an invalid depth in {}, {} "
-                  "beyond --max-radiance",
-                  r.frame, current_.file.path, s.repaired_colour, s.repaired_depth, current_.selection.depth,
-                  s.clamped_radiance));
-}
-
-Imf::Header FilterRun::header(const exr::SequenceFrame& from, const Window& data_window) const {
-  Imf::Header header = exr::output_header(current_.file, data_window, current_.selection.view, compression_);
-  const auto say = [&](const char* attribute, const std::string& text) {
-    header.insert(attribute, Imf::StringAttribute(text));
-  };
-  say("pullfocus.version", kVersion);
-  say("pullfocus.method", fmt::format("{} kernel=\"{}\" visibility=\"{}\" coc_step={} max_coc={}{}", method_,
-                                      describe(options_.kernel.shape), describe(options_.visibility),
-                                      options_.kernel.coc_step, options_.kernel.max_coc_px, shot_.describe(current_)));
-  say("pullfocus.camera", shot_.camera().describe(from.frame, current_.file));
-  return header;
-}
-
-void FilterRun::write_result(const exr::SequenceFrame& from) {
-  const Window& window = filter_->result_window();
-  auto channels = exr::colour_channels(filter_->result(), current_.selection, window);
-  const exr::ExtraChannels extra = exr::pass_through(current_.extra, window);
-  const auto more = exr::extra_channels(extra);
-  channels.insert(channels.end(), more.begin(), more.end());
-  exr::write_exr(names_.path(from.frame), header(from, window), channels);
-}
-
-// Signed CoC diameters in pixels as channel `CoC`, or depth as understood (background infinite) as channel
-// `Z`.
-void FilterRun::write_values(const exr::SequenceFrame& from) {
-  const CocFunction coc = shot_.camera().coc(from.frame, current_.file);
-  Plane& values = current_.frame.depth;
-  const Window& w = values.window();
-  for (int y = w.y0; y < w.y1; ++y) {
-    for (float& value : std::span(values.row(y), static_cast<std::size_t>(w.width()))) {
-      const bool background = is_background(coc.kind, value);
-      if (kind_ == OutputKind::coc) {
-        value = background ? coc.background() : coc(value);
-      } else if (background) {
-        value = background_depth(coc.kind);
-      }
-    }
-  }
-  const exr::OutputChannel channel{kind_ == OutputKind::coc ? "CoC" : "Z", Imf::FLOAT,
-                                   reinterpret_cast<const std::byte*>(values.row(w.y0)), sizeof(float),
-                                   sizeof(float) * static_cast<std::size_t>(w.width())};
-  exr::write_exr(names_.path(from.frame), header(from, w), {channel});
 }
 
 void FilterRun::say_summary() const {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <tbb/info.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "filter/explain.h"
 #include "filter/plan.h"
 #include "filter_options.h"
+#include "filter_run.h"
 #include "image/error.h"
 #include "scatter/disc.h"
 #include "shot.h"
@@ -119,14 +121,22 @@ void say_kernel(const KernelTable& kernels) {
       kernels.kernel(index).levels.size() - 1, edges, edges / disc_kernel(diameter, options.pixel_aspect).edge_count());
 }
 
-void say_plan(const Plan& plan, const FilterOptions& options, const std::string& mask) {
+void say_memory(const Plan& plan, const ShotFrame& frame, const FilterOptions& options, int threads) {
+  const double pixels = static_cast<double>(plan.window.pixels());
+  const double frames = frame_bytes_per_pixel(frame, options.output_type, threads);
+  say("", "memory: {:.0f} + {:.0f} bytes a pixel (filter + frames, {} in flight), {:.0f} MB",
+      plan.state_bytes_per_pixel, frames, frames_in_flight(threads),
+      pixels * (plan.state_bytes_per_pixel + frames) / 1e6);
+}
+
+void say_plan(const Plan& plan, const FilterOptions& options, const ShotFrame& frame, int threads) {
   const double pixels = static_cast<double>(plan.window.pixels());
   say("CoC", "{:.2f} to {:.2f} px (in front < 0 < behind); table indices {} to {} of {}", plan.coc_min, plan.coc_max,
       plan.index_min, plan.index_max, plan.table_size);
   if (plan.clamped_coc > 0) {
     say("", "{} pixels are beyond --max-coc {:g} and are clamped to it", plan.clamped_coc, options.kernel.max_coc_px);
   }
-  if (!mask.empty()) {
+  if (const std::string& mask = frame.selection.mask; !mask.empty()) {
     say("mask", "{}: {} pixels ({:.2f} %) are held out", mask, plan.held_out,
         100 * static_cast<double>(plan.held_out) / pixels);
   }
@@ -145,8 +155,7 @@ void say_plan(const Plan& plan, const FilterOptions& options, const std::string&
   }
   say("", "linear frame: {:.1f} M run edges, {:.1f} a pixel", static_cast<double>(plan.linear_edges) / 1e6,
       static_cast<double>(plan.linear_edges) / pixels);
-  say("", "memory: {:.0f} + {:.0f} bytes a pixel (filter + frames), {:.0f} MB", plan.state_bytes_per_pixel,
-      plan.frame_bytes_per_pixel, pixels * (plan.state_bytes_per_pixel + plan.frame_bytes_per_pixel) / 1e6);
+  say_memory(plan, frame, options, threads);
   if (!plan.changed_share) return;
   const double work = static_cast<double>(*plan.next_edges) / static_cast<double>(plan.linear_edges);
   say("next frame", "{:.2f} % of pixels change; their edges are {:.1f} % of a linear frame's",
@@ -211,7 +220,7 @@ int inspect(const Arguments& a) {
   say_depth(shot, first, plan);
   say_camera(shot, frames[0], first.file);
   say_kernel(kernels);
-  say_plan(plan, options, first.selection.mask);
+  say_plan(plan, options, first, a.filter.threads > 0 ? a.filter.threads : tbb::info::default_concurrency());
   if (!a.explain.empty()) say_explanation(shot, first, coc, kernels, options.visibility, a.explain);
   return kDone;
 }

@@ -26,11 +26,11 @@ void request_stop(int) {
 
 }  // namespace
 
-void use_threads(int threads) {
+void use_threads(int threads, int waiting) {
   if (threads == 0) threads = tbb::info::default_concurrency();
   static std::unique_ptr<tbb::global_control> control;
   control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                  static_cast<std::size_t>(threads));
+                                                  static_cast<std::size_t>(threads + waiting));
   // One thread decodes in the calling thread: OpenEXR counts only helpers.
   Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
   std::signal(SIGINT, request_stop);

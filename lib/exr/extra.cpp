@@ -1,6 +1,7 @@
 #include "exr/extra.h"
 
 #include <cstring>
+#include <utility>
 
 namespace pullfocus::exr {
 namespace {
@@ -32,16 +33,22 @@ void ExtraChannels::reset(const Window& new_window, std::size_t count) {
 
 ExtraChannels pass_through(const ExtraChannels& extra, const Window& window) {
   ExtraChannels result;
-  result.reset(window, extra.channels.size());
+  const ExtraChannels& passed = pass_through(extra, window, result);
+  return &passed == &extra ? extra : std::move(result);
+}
+
+const ExtraChannels& pass_through(const ExtraChannels& extra, const Window& window, ExtraChannels& scratch) {
+  if (extra.window == window) return extra;
+  scratch.reset(window, extra.channels.size());
   for (std::size_t i = 0; i < extra.channels.size(); ++i) {
     const ExtraChannel& from = extra.channels[i];
-    ExtraChannel& to = result.channels[i];
+    ExtraChannel& to = scratch.channels[i];
     to.name = from.name;
     to.type = from.type;
     to.samples.assign(window.pixels() * sample_bytes(from.type), std::byte{0});
     copy_rows(from, extra.window, to, window);
   }
-  return result;
+  return scratch;
 }
 
 }  // namespace pullfocus::exr

@@ -33,4 +33,7 @@ struct ExtraChannels {
 // The same channels over `window`, with zeros where `extra` has no samples.
 ExtraChannels pass_through(const ExtraChannels& extra, const Window& window);
 
+// The same without a copy where the windows are equal: either `extra` itself, or `scratch`, whose memory is used again.
+const ExtraChannels& pass_through(const ExtraChannels& extra, const Window& window, ExtraChannels& scratch);
+
 }  // namespace pullfocus::exr

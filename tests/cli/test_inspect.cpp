@@ -44,6 +44,17 @@ TEST(Inspect, SaysThatNoSurfaceWasFound) {
   expect_words(outcome.out, {"no surface anywhere"});
 }
 
+// Half colour 8 bytes, float depth 4, the depth channel as it is passed on 4; the filter's result 8.
+TEST(Inspect, CountsTheFramesInFlight) {
+  const TempFolder folder;
+  write_shot(folder, 1, 1);
+  const std::string command = fmt::format("inspect '{}' ", folder / "shot.####.exr");
+  expect_words(run(command + "--threads 1").out, {"+ 24 bytes a pixel (filter + frames, 1 in flight)"});
+  expect_words(run(command + "--threads 4").out, {"+ 72 bytes a pixel (filter + frames, 4 in flight)"});
+  expect_words(run(command + "--threads 4 --mask A").out, {"+ 88 bytes a pixel (filter + frames, 4 in flight)"});
+  expect_words(run(command + "--threads 4 --output-type float").out, {"+ 112 bytes a pixel"});
+}
+
 TEST(Inspect, ReportsGapsByTheirNumbers) {
   const TempFolder folder;
   write_shot(folder, 1, 2);

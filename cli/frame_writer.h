@@ -1,0 +1,41 @@
+// Output files of `pullfocus filter`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "exr/header.h"
+#include "exr/output_names.h"
+#include "shot.h"
+
+namespace pullfocus::cli {
+
+enum class OutputKind { result, coc, depth };
+OutputKind parse_output_kind(const std::string& text);  // throws Error(usage)
+
+class FrameWriter {
+ public:
+  // `out` as typed, `compression` unset: the input's. `shot` must live as long. Throws as exr::OutputNames.
+  FrameWriter(const Shot& shot, const std::string& out, std::optional<Imf::Compression> compression);
+
+  void prepare_folder(bool make) const;  // throws Error(unwritable)
+  std::string path(int frame) const { return names_.path(frame); }
+
+  // `method` is what the header says of the filter. `window` of `colour` (whose window is the state window) and the
+  // channels carried along; `scratch` is memory to use again. Throws as exr::write_exr().
+  void write_colour(int frame, const ShotFrame& read, const std::string& method, const ColourImage& colour,
+                    const Window& window, exr::ExtraChannels& scratch) const;
+
+  // coc: signed CoC diameters in pixels as channel `CoC`; depth: depth as understood (background infinite) as channel
+  // `Z`. Replaces the frame's depth by them.
+  void write_values(int frame, ShotFrame& read, const std::string& method, OutputKind kind) const;
+
+ private:
+  Imf::Header header(int frame, const ShotFrame& read, const std::string& method, const Window& data_window) const;
+
+  const Shot& shot_;
+  exr::OutputNames names_;
+  std::optional<Imf::Compression> compression_;
+};
+
+}  // namespace pullfocus::cli
