@@ -56,6 +56,8 @@ class Band {
            static_cast<std::size_t>(layout_.pad) * static_cast<std::size_t>(layout_.lanes);
   }
 
+  std::ptrdiff_t stride() const noexcept { return static_cast<std::ptrdiff_t>(stride_); }  // accumulators a row
+
   // Says that edges may fall on image columns [x0, x1) (pads included) of rows [ya, yb).
   void mark(int ya, int yb, int x0, int x1) noexcept;
 

@@ -83,6 +83,28 @@ KernelEdge make_edge(Kernel& kernel, int dx, std::uint8_t from, std::uint8_t to)
   return {static_cast<std::int16_t>(dx), static_cast<std::uint8_t>(found - kernel.steps.begin()), from < to};
 }
 
+void make_chains(Kernel& kernel) {
+  for (auto& lists : kernel.chains) {
+    for (ChainList& list : lists) list = {{}, {0}};
+  }
+  for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
+    const auto row = kernel.row(dy);
+    for (std::size_t i = 0; i < row.size();) {
+      std::size_t n = 1;
+      while (n < kMaxChain && i + n < row.size() && row[i + n].rising == row[i].rising &&
+             row[i + n].dx == row[i].dx + static_cast<int>(n))
+        ++n;
+      KernelChain& chain = kernel.chains[row[i].rising][n - 1].chains.emplace_back(
+          KernelChain{row[i].dx, static_cast<std::int16_t>(dy), {}});
+      for (std::size_t k = 0; k < n; ++k) chain.steps[k] = row[i + k].step;
+      i += n;
+    }
+    for (auto& lists : kernel.chains) {
+      for (ChainList& list : lists) list.row_begin.push_back(static_cast<std::uint32_t>(list.chains.size()));
+    }
+  }
+}
+
 }  // namespace
 
 Kernel reflected(const Kernel& kernel) {
@@ -96,6 +118,7 @@ Kernel reflected(const Kernel& kernel) {
     }
     result.row_begin.push_back(static_cast<std::uint32_t>(result.edges.size()));
   }
+  make_chains(result);
   return result;
 }
 
@@ -147,6 +170,7 @@ Kernel kernel_from_shares(int rx, int ry, const std::vector<std::int32_t>& value
     }
     kernel.row_begin.push_back(static_cast<std::uint32_t>(kernel.edges.size()));
   }
+  make_chains(kernel);
   if (kernel.steps.size() > kMaxKernelSteps) throw std::logic_error("a kernel has too many kinds of edges");
   return kernel;
 }
