@@ -1,22 +1,14 @@
-// Writing groups of neighbouring sources that share a kernel into a band, as run edges. SIMD with run-time dispatch;
+// Writing sources into a band as run edges, in groups of neighbours that share a kernel. SIMD with run-time dispatch;
 // every target gives the same bits.
 #pragma once
 
 #include <cstdint>
 
-#include "image/tiles.h"
 #include "scatter/band.h"
-#include "scatter/kernel.h"
+#include "scatter/kernel_table.h"
+#include "scatter/source_row.h"
 
 namespace pullfocus {
-
-// One source: contribution at weight w is round(plus * w) - round(minus * w), lane by lane.
-template <int lanes>
-struct Emission {
-  int x;               // image column
-  std::int16_t index;  // whose kernel
-  double plus[lanes], minus[lanes];
-};
 
 // A band as kernels see it: kernel rows Y in [y0, y1) land on band row `first + (Y - y0) * direction`. The
 // band itself, and its mirror images past the top and bottom border that kernels still reach. Light comes back from
@@ -29,28 +21,13 @@ struct BandImage {
   int band_row(int y) const noexcept { return first + (y - y0) * direction; }
 };
 
-// Columns that are written together, at most.
-inline constexpr int kWindow = 8;
-
-// Writes the sources[i] with bit i of `members` set, whose kernel this is and which lie in columns x .. x + width - 1
-// of row y, into the band rows of one of its images. Columns without a member are written as zeros.
+// Writes the sources of one tile row, row y, with their kernels into the band rows of one of its images.
 template <int lanes>
-using WriteGroup = void (*)(const Kernel& kernel, const Emission<lanes>* sources, std::uint32_t members, int x, int y,
-                            const BandImage& image, Band& band);
+using WriteRow = void (*)(const KernelTable& kernels, const SourceRow<lanes>& row, int y, const BandImage& image,
+                          Band& band);
 
-// For the processor at hand.
+// For the processor at hand. `with_minus`: false if every `minus` is to be taken as 0.
 template <int lanes>
-struct GroupWriters {
-  WriteGroup<lanes> by_width[4];  // 1, 2, 4 and kWindow columns
-
-  // The narrowest writer for a group of so many columns.
-  WriteGroup<lanes> writer(int width) const noexcept {
-    return by_width[width <= 1 ? 0 : width <= 2 ? 1 : width <= 4 ? 2 : 3];
-  }
-};
-
-// `with_minus`: false if every `minus` is to be taken as 0.
-template <int lanes>
-GroupWriters<lanes> group_writers(bool with_minus) noexcept;
+WriteRow<lanes> row_writer(bool with_minus) noexcept;
 
 }  // namespace pullfocus

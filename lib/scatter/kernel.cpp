@@ -147,6 +147,7 @@ Kernel kernel_from_shares(int rx, int ry, const std::vector<std::int32_t>& value
   const std::vector<Level> levels = distinct_shares(values);
   assert(levels.size() > 1 && levels.size() <= 256);
   kernel.levels = weights(levels);
+  for (std::size_t k = 1; k < levels.size(); ++k) kernel.steps.push_back({0, static_cast<std::uint8_t>(k)});
   std::int32_t last_share = 0;
   std::uint8_t last_level = 0;
   const auto level_of = [&](std::int32_t share) {

@@ -49,7 +49,8 @@ inline constexpr std::size_t kMaxKernelSteps = 17 * 16 / 2;
 struct Kernel {
   int radius_x = 0, radius_y = 0;        // columns -radius_x..radius_x and rows -radius_y..radius_y hold all weight
   std::vector<std::int64_t> levels;      // ascending weights; levels[0] = 0 is outside
-  std::vector<KernelStep> steps;         // distinct pairs of levels, at most kMaxKernelSteps
+  std::vector<KernelStep> steps;         // distinct pairs of levels, at most kMaxKernelSteps; first those from 0 to
+                                         // every level: step k - 1 has the values of level k
   std::vector<std::uint32_t> row_begin;  // edges of row dy are [row_begin[dy + radius_y], row_begin[.. + 1])
   std::vector<KernelEdge> edges;
   ChainList chains[2][kMaxChain];  // the same edges, by falling/rising and length - 1

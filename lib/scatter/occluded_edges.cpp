@@ -54,8 +54,7 @@ HWY_INLINE void LevelValues(const Kernel& kernel, const Emission<lanes>& source,
   for (std::size_t k = 1; k < kernel.levels.size(); ++k) {
     ForEachPart<lanes>([&](auto d, int i) HWY_ATTR {
       const hn::Repartition<double, decltype(d)> df;
-      const auto value =
-          Contribution<false>(df, source.plus + i, source.minus + i, static_cast<double>(kernel.levels[k]));
+      const auto value = Contribution<false>(df, source.plus + i, nullptr, static_cast<double>(kernel.levels[k]));
       hn::StoreU(negated ? hn::Sub(hn::Zero(d), value) : value, d, out + k * lanes + i);
     });
   }

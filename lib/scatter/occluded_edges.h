@@ -24,6 +24,14 @@ std::uint64_t hidden_by(const std::uint16_t* keys, const std::uint16_t* sizes, i
 std::uint64_t hidden_from(const std::uint16_t* keys, const std::uint16_t* sizes, int n, std::uint16_t key,
                           NearSizes near) noexcept;
 
+// One source: its contribution at weight w is round(plus * w), lane by lane.
+template <int lanes>
+struct Emission {
+  int x;               // image column
+  std::int16_t index;  // whose kernel
+  double plus[lanes];
+};
+
 // One source that others may hide.
 struct HiddenSource {
   const DepthPlanes* planes;
@@ -35,8 +43,7 @@ struct HiddenSource {
 };
 
 // Adds or subtracts what `source`, at column source.x (of an image of the picture beside the picture, where kernels are
-// not symmetric) and row y, would give to the pixels that hide it, in the band rows of one of its images. Only `plus`
-// counts.
+// not symmetric) and row y, would give to the pixels that hide it, in the band rows of one of its images.
 template <int lanes>
 using WriteHidden = void (*)(const Kernel& kernel, const Emission<lanes>& source, const HiddenSource& hidden, int y,
                              const BandImage& image, Band& band);

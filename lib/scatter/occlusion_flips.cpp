@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "scatter/emit.h"
+#include "scatter/source_row.h"
 
 namespace pullfocus {
 

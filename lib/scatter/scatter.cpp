@@ -3,8 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 
-#include "scatter/emit.h"
+#include "scatter/edges.h"
+#include "scatter/occluded_edges.h"
 #include "scatter/occlusion.h"
 
 namespace pullfocus {
@@ -21,80 +24,51 @@ Scatter::Scatter(const KernelTable& kernels, int width, int height) : kernels_(k
 
 namespace {
 
-// Sources are written in groups of equal kernel within windows of kWindow columns. Columns of a group that hold another
-// kernel are written as zeros: that is cheaper than splitting the group.
+// Columns [first, last] of the image that hold the sources of a row.
 template <int lanes>
-void write_sources(const KernelTable& kernels, const GroupWriters<lanes>& writers, const Emission<lanes>* sources,
-                   int count, int y, const BandImage& image, Band& band) {
-  for (int i = 0; i < count;) {
-    const Emission<lanes>* const window = sources + i;
-    int in_window = 1;
-    while (i + in_window < count && window[in_window].x < window->x + kWindow) ++in_window;
-    std::uint32_t pending = (1u << in_window) - 1;
-    while (pending != 0) {
-      const int first = std::countr_zero(pending);
-      std::uint32_t members = 0;
-      for (int m = first; m < in_window; ++m) {
-        members |= std::uint32_t{window[m].index == window[first].index} << m;
-      }
-      members &= pending;
-      const int x = window[first].x, width = window[std::bit_width(members) - 1].x - x + 1;
-      if (width > 2 * std::popcount(members)) members &= ~members + 1;  // too sparse: one at a time
-      pending &= ~members;
-
-      const auto write = writers.writer(std::popcount(members) == 1 ? 1 : width);
-      write(kernels.kernel(window[first].index), window, members, x, y, image, band);
-    }
-    i += in_window;
-  }
-}
-
-}  // namespace
-
-namespace {
-
-// The k-th image of a row beyond its left (k < 0) or right border, mirrored where k is odd.
-struct RowImage {
-  int k, width;
-  int column(int x) const noexcept { return k % 2 == 0 ? x + k * width : (k + 1) * width - 1 - x; }
-
-  // Those of `count` sources whose images lie within `reach` of the row, ascending in x.
-  template <int lanes>
-  int of(const Emission<lanes>* sources, int count, int reach, Emission<lanes>* out) const noexcept {
-    int n = 0;
-    for (int i = 0; i < count; ++i) {
-      const Emission<lanes>& source = sources[k % 2 == 0 ? i : count - 1 - i];
-      const int x = column(source.x);
-      if (x < -reach || x >= width + reach) continue;
-      out[n] = source;
-      out[n++].x = x;
-    }
-    return n;
-  }
+struct Extent {
+  int first, last;
+  explicit Extent(const SourceRow<lanes>& row) noexcept
+      : first(row.x + std::countr_zero(row.mask)), last(row.x + 63 - std::countl_zero(row.mask)) {}
 };
+
+// The k-th image of a row beyond its left (k < 0) or right border, mirrored where k is odd: those of its sources that
+// lie within `reach` of the picture.
+template <int lanes>
+void image_of(const SourceRow<lanes>& row, bool with_minus, int k, int width, int reach,
+              SourceRow<lanes>& out) noexcept {
+  const bool mirrored = k % 2 != 0;
+  out.x = mirrored ? (k + 1) * width - kTileWidth - row.x : row.x + k * width;
+  out.mask = 0;
+  std::fill(std::begin(out.index), std::end(out.index), kNeverCommitted);
+  for_each_pixel(row.mask, [&](int i) {
+    const int to = mirrored ? kTileWidth - 1 - i : i, x = out.x + to;
+    if (x < -reach || x >= width + reach) return;
+    out.mask |= std::uint64_t{1} << to;
+    out.index[to] = row.index[i];
+    std::copy_n(row.plus + i * lanes, lanes, out.plus + to * lanes);
+    if (with_minus) std::copy_n(row.minus + i * lanes, lanes, out.minus + to * lanes);
+  });
+}
 
 }  // namespace
 
 // Kernels that are their own mirror images may fall on the pads, which are folded back in. For others this would turn
 // the light the wrong way round: there the sources are mirrored instead, and the pads are dropped.
 template <int lanes, typename Write>
-void Scatter::write_beyond(Band& band, const EmissionRow<lanes>& row, int y, int reach, const BandImage& image,
-                           Write&& write) const {
-  Emission<lanes> images[kTileWidth];
+void Scatter::write_beyond(Band& band, const SourceRow<lanes>& row, bool with_minus, int y, int reach,
+                           const BandImage& image, Write&& write) const {
+  SourceRow<lanes> beyond;
   const int most = reach / grid_.width + 1;
   for (int k = -most; k <= most; ++k) {
-    if (k == 0) continue;
-    const RowImage beyond{k, grid_.width};
-    const auto write_images = [&](const Emission<lanes>* sources, int count) {
-      const int n = beyond.of(sources, count, reach, images);
-      if (n == 0) return;
-      const int ya = std::max(image.y0, y - reach_y_.back()), yb = std::min(image.y1, y + reach_y_.back() + 1);
-      const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
-      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, images[0].x - reach, images[n - 1].x + reach + 2);
-      write(images, n, k % 2 != 0);
-    };
-    write_images(row.emissions, row.count);
-    write_images(row.removed, row.removed_count);
+    if (k == 0 || row.mask == 0) continue;
+    image_of(row, with_minus, k, grid_.width, reach, beyond);
+    if (beyond.mask == 0) continue;
+    const int ya = std::max(image.y0, y - reach_y_.back()), yb = std::min(image.y1, y + reach_y_.back() + 1);
+    const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
+    const Extent extent(beyond);
+    band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, extent.first - reach, extent.last + reach + 2);
+    write(beyond, k % 2 != 0);
   }
 }
 
@@ -105,23 +79,24 @@ void Scatter::write_hidden(Band& band, const Sources& sources, int x, int y, std
   const Occlusion& occlusion = *sources.occlusion;
   const int window = occlusion.options().bitmap_size;
   const WriteHidden<lanes> write_one = hidden_writer<lanes>();
-  const auto write = [&](const Emission<lanes>* emissions, int count, bool mirrored) {
-    for (int i = 0; i < count; ++i) {
-      const int column = mirror(emissions[i].x, grid_.width);
+  const auto write = [&](const SourceRow<lanes>& row, bool mirrored) {
+    for_each_pixel(row.mask, [&](int i) {
+      Emission<lanes> emission{row.x + i, row.index[i], {}};
+      std::copy_n(row.plus + i * lanes, lanes, emission.plus);
+      const int column = mirror(emission.x, grid_.width);
       const HiddenSource hidden{&occlusion.planes(),
                                 occlusion.planes().keys(y)[column],
                                 occlusion.near(occlusion.planes().sizes(y)[column]),
                                 window,
                                 mirrored ? 1 - window / 2 : -window / 2,
                                 sources.frame == nullptr};
-      write_one(kernels_.kernel(emissions[i].index), emissions[i], hidden, y, image, band);
-    }
+      write_one(kernels_.kernel(emission.index), emission, hidden, y, image, band);
+    });
   };
-  EmissionRow<lanes> row;
-  const Sources committed{sources.state};
-  dispatch(sources.state->colour.type(), [&]<SampleType type>() { collect<lanes, type>(committed, x, y, mask, row); });
-  write(row.emissions, row.count, false);
-  if (!fold) write_beyond(band, row, y, reach, image, write);
+  RowSources<lanes> row;
+  collect<lanes>(Sources{sources.state}, x, y, mask, row);
+  write(row.added, false);
+  if (!fold) write_beyond(band, row.added, false, y, reach, image, write);
 }
 
 template <int lanes>
@@ -139,8 +114,8 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
       images.push_back({y0, y1, flipped ? band.y1() - 1 : band.y0(), flipped ? -1 : 1});
   }
 
-  const GroupWriters<lanes> writers = group_writers<lanes>(sources.frame != nullptr);
-  EmissionRow<lanes> row;
+  const WriteRow<lanes> write_plain = row_writer<lanes>(false), write_changed = row_writer<lanes>(true);
+  RowSources<lanes> row;
   for (const BandImage& image : images) {
     for (const TileWork& work : tiles) {
       const int x = grid_.x(work.tile), y = grid_.y(work.tile);
@@ -156,14 +131,18 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
             sources.occlusion != nullptr ? work.mask.rows[i] & sources.occlusion->columns(work.tile) : 0;
         if (hidden != 0) write_hidden<lanes>(band, sources, x, y + i, hidden, rx, image, layout.fold);
         if (!sources.is_plain) continue;
-        dispatch(sources.state->colour.type(),
-                 [&]<SampleType type>() { collect<lanes, type>(sources, x, y + i, work.mask.rows[i], row); });
-        write_sources(kernels_, writers, row.emissions, row.count, y + i, image, band);
-        write_sources(kernels_, writers, row.removed, row.removed_count, y + i, image, band);
-        if (layout.fold) continue;
-        write_beyond(band, row, y + i, rx, image, [&](const Emission<lanes>* emissions, int count, bool) {
-          write_sources(kernels_, writers, emissions, count, y + i, image, band);
-        });
+        collect<lanes>(sources, x, y + i, work.mask.rows[i], row);
+        const auto write = [&](const SourceRow<lanes>& of_row, bool with_minus) {
+          if (of_row.mask == 0) return;
+          const WriteRow<lanes> write_row = with_minus ? write_changed : write_plain;
+          write_row(kernels_, of_row, y + i, image, band);
+          if (layout.fold) return;
+          write_beyond(band, of_row, with_minus, y + i, rx, image,
+                       [&](const SourceRow<lanes>& beyond, bool) { write_row(kernels_, beyond, y + i, image, band); });
+        };
+        write(row.added, false);
+        write(row.taken_back, false);
+        write(row.recoloured, true);
       }
     }
   }

@@ -4,44 +4,16 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
-#include "image/frame.h"
-#include "image/sanitise.h"
 #include "scatter/band.h"
 #include "scatter/edges.h"
 #include "scatter/kernel_table.h"
-#include "scatter/layers.h"
-#include "scatter/state.h"
+#include "scatter/source_row.h"
 #include "scatter/tile_work.h"
 
 namespace pullfocus {
-
-class Occlusion;
-
-// What the selected pixels contribute.
-struct Sources {
-  const SourceState* state = nullptr;  // committed sources
-
-  // Null: the committed state itself. Otherwise the change from it to this frame, whose new indices are
-  // `pending` (row by row). Same window and sample type as the state.
-  const Frame* frame = nullptr;
-  const std::int16_t* pending = nullptr;
-  const Sanitiser* sanitiser = nullptr;
-
-  // Null: nothing is hidden. Otherwise goes with the state: what the sources of the state gave to pixels that hide them
-  // is left out, and of a change it is put back, as if the state gave to all of them before the change. What the
-  // change's own sources are hidden from is for a run over the new state to take out, with is_plain false.
-  const Occlusion* occlusion = nullptr;
-  bool is_plain = true;  // false: take out what is hidden, but do not scatter
-
-  // Signed indices whose sources count; the others are left out.
-  Layers::Range range{-kMostIndex + 1, kMostIndex};
-  static constexpr std::int16_t kMostIndex = std::numeric_limits<std::int16_t>::max();
-  bool takes(std::int16_t index) const noexcept { return index >= range.first && index <= range.last; }
-};
 
 // One finished row of one layer: sums at image columns within the spans, zeros at the others.
 struct LayerRow {
@@ -49,9 +21,6 @@ struct LayerRow {
   const Accumulator* values;  // at column 0
   std::span<const ColumnSpan> spans;
 };
-
-template <int lanes>
-struct EmissionRow;
 
 class Scatter {
  public:
@@ -82,7 +51,7 @@ class Scatter {
   void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout) const;
 
   template <int lanes, typename Write>
-  void write_beyond(Band& band, const EmissionRow<lanes>& row, int y, int reach, const BandImage& image,
+  void write_beyond(Band& band, const SourceRow<lanes>& row, bool with_minus, int y, int reach, const BandImage& image,
                     Write&& write) const;
 
   template <int lanes>

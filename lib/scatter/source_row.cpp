@@ -1,0 +1,206 @@
+#include "scatter/source_row.h"
+
+#include <algorithm>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "scatter/source_row.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace pullfocus {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+HWY_INLINE hn::Vec<D> LoadValues(D d, const Pixel<SampleType::half>& pixel, int c) {
+  const hn::Rebind<float, D> df;
+  const hn::Rebind<hwy::float16_t, D> d16;
+  return hn::PromoteTo(d, hn::PromoteTo(df, hn::LoadU(d16, reinterpret_cast<const hwy::float16_t*>(pixel.rgba) + c)));
+}
+template <class D>
+HWY_INLINE hn::Vec<D> LoadValues(D d, const Pixel<SampleType::float32>& pixel, int c) {
+  return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), reinterpret_cast<const float*>(pixel.rgba) + c));
+}
+
+// n pixels to lanes, times `sign`.
+template <int lanes, SampleType type>
+void Lanes(const Pixel<type>* pixels, int n, double sign, double* HWY_RESTRICT out) {
+  const hn::CappedTag<double, 4> d;
+  constexpr int step = static_cast<int>(hn::MaxLanes(d));
+  const auto factor = hn::Set(d, sign);
+  for (int i = 0; i < n; ++i, out += lanes) {
+    for (int c = 0; c < 4; c += step) hn::StoreU(hn::Mul(LoadValues(d, pixels[i], c), factor), d, out + c);
+    if constexpr (lanes == kAlphaLanes) out[kAlphaLane] = out[kWeightLane];
+    out[kWeightLane] = sign;
+  }
+}
+
+// Bit i: a[i] == b[i], of kTileWidth values.
+std::uint64_t Equal(const std::int16_t* a, const std::int16_t* b) {
+  const hn::CappedTag<std::int16_t, 32> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kTileWidth; i += step) {
+    std::uint8_t stored[8] = {};
+    hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), stored);
+    std::uint64_t part = 0;
+    std::memcpy(&part, stored, sizeof part);
+    bits |= part << i;
+  }
+  return bits;
+}
+
+// Bit i: first <= a[i] <= last, of kTileWidth values.
+std::uint64_t Within(const std::int16_t* a, std::int16_t first, std::int16_t last) {
+  const hn::CappedTag<std::int16_t, 32> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  const auto low = hn::Set(d, first), high = hn::Set(d, last);
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kTileWidth; i += step) {
+    const auto v = hn::LoadU(d, a + i);
+    std::uint8_t stored[8] = {};
+    hn::StoreMaskBits(d, hn::Not(hn::Or(hn::Lt(v, low), hn::Gt(v, high))), stored);
+    std::uint64_t part = 0;
+    std::memcpy(&part, stored, sizeof part);
+    bits |= part << i;
+  }
+  return bits;
+}
+
+void OpaqueHalf(const Pixel<SampleType::half>* pixels, int n, double sign, double* out) {
+  Lanes<kOpaqueLanes>(pixels, n, sign, out);
+}
+void OpaqueFloat(const Pixel<SampleType::float32>* pixels, int n, double sign, double* out) {
+  Lanes<kOpaqueLanes>(pixels, n, sign, out);
+}
+void AlphaHalf(const Pixel<SampleType::half>* pixels, int n, double sign, double* out) {
+  Lanes<kAlphaLanes>(pixels, n, sign, out);
+}
+void AlphaFloat(const Pixel<SampleType::float32>* pixels, int n, double sign, double* out) {
+  Lanes<kAlphaLanes>(pixels, n, sign, out);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace pullfocus
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pullfocus {
+
+namespace {
+
+HWY_EXPORT(Equal);
+HWY_EXPORT(Within);
+HWY_EXPORT(OpaqueHalf);
+HWY_EXPORT(OpaqueFloat);
+HWY_EXPORT(AlphaHalf);
+HWY_EXPORT(AlphaFloat);
+
+template <int lanes>
+void to_lanes(const Pixel<SampleType::half>* pixels, int n, double sign, double* out) noexcept {
+  if constexpr (lanes == kOpaqueLanes) {
+    HWY_DYNAMIC_DISPATCH(OpaqueHalf)(pixels, n, sign, out);
+  } else {
+    HWY_DYNAMIC_DISPATCH(AlphaHalf)(pixels, n, sign, out);
+  }
+}
+template <int lanes>
+void to_lanes(const Pixel<SampleType::float32>* pixels, int n, double sign, double* out) noexcept {
+  if constexpr (lanes == kOpaqueLanes) {
+    HWY_DYNAMIC_DISPATCH(OpaqueFloat)(pixels, n, sign, out);
+  } else {
+    HWY_DYNAMIC_DISPATCH(AlphaFloat)(pixels, n, sign, out);
+  }
+}
+
+constexpr int kPiece = 8;  // columns that are converted together
+
+// Calls convert(first, n) for pieces of the row that hold set bits; `columns` of the tile lie in the image.
+template <typename Convert>
+void for_pieces(std::uint64_t mask, int columns, Convert&& convert) {
+  for (int i = 0; mask != 0;) {
+    const int skipped = std::countr_zero(mask) / kPiece * kPiece;
+    i += skipped;
+    mask >>= skipped;
+    int n = 0;
+    while (n < kTileWidth && (mask & 0xff) != 0) {
+      mask >>= kPiece;
+      n += kPiece;
+    }
+    convert(i, std::min(n, columns - i));
+    i += n;
+  }
+}
+
+template <int lanes, SampleType type>
+void load_plain(const Pixel<type>* pixels, std::uint64_t mask, int columns, double sign, double* out) noexcept {
+  for_pieces(mask, columns, [&](int i, int n) { to_lanes<lanes>(pixels + i, n, sign, out + i * lanes); });
+}
+
+template <int lanes, SampleType type>
+void load_sane(const Pixel<type>* pixels, const Sanitiser& sanitiser, std::uint64_t mask, int columns,
+               double* out) noexcept {
+  for_pieces(mask, columns, [&](int i, int n) {
+    Pixel<type> sane[kTileWidth];
+    for (int k = 0; k < n; ++k) sane[k] = sanitiser(pixels[i + k]);
+    to_lanes<lanes>(sane, n, 1, out + i * lanes);
+  });
+}
+
+void load_indices(const std::int16_t* from, int n, std::int16_t* out) noexcept {
+  std::copy_n(from, n, out);
+  std::fill(out + n, out + SourceRow<kOpaqueLanes>::kColumns, kNeverCommitted);
+}
+
+std::uint64_t within(const std::int16_t* index, const Layers::Range& range) noexcept {
+  return HWY_DYNAMIC_DISPATCH(Within)(index, static_cast<std::int16_t>(range.first),
+                                      static_cast<std::int16_t>(range.last));
+}
+
+template <int lanes, SampleType type>
+void collect_typed(const Sources& sources, int x, int y, std::uint64_t mask, RowSources<lanes>& row) noexcept {
+  const Window& w = sources.state->colour.window();
+  const auto offset = static_cast<std::size_t>(y) * static_cast<std::size_t>(w.width()) + static_cast<std::size_t>(x);
+  const int columns = std::min(kTileWidth, w.width() - x);
+  const auto* old_colours = reinterpret_cast<const Pixel<type>*>(sources.state->colour.pixel(w.x0 + x, w.y0 + y));
+  const std::int16_t* old_index = sources.state->index.data() + offset;
+  row.added.x = row.taken_back.x = row.recoloured.x = x;
+  row.taken_back.mask = row.recoloured.mask = 0;
+  if (sources.frame == nullptr) {
+    load_indices(old_index, columns, row.added.index);
+    row.added.mask = mask & within(row.added.index, sources.range);
+    load_plain<lanes>(old_colours, row.added.mask, columns, 1, row.added.plus);
+    return;
+  }
+  const auto* colours = reinterpret_cast<const Pixel<type>*>(sources.frame->colour.pixel(w.x0 + x, w.y0 + y));
+  load_indices(sources.pending + offset, columns, row.added.index);
+  load_indices(old_index, columns, row.taken_back.index);
+  const std::uint64_t same = HWY_DYNAMIC_DISPATCH(Equal)(row.added.index, row.taken_back.index);
+  const std::uint64_t now = mask & within(row.added.index, sources.range);
+  row.added.mask = now & ~same;
+  row.taken_back.mask = mask & ~same & within(row.taken_back.index, sources.range);
+  row.recoloured.mask = now & same;
+  load_sane<lanes>(colours, *sources.sanitiser, row.added.mask, columns, row.added.plus);
+  load_plain<lanes>(old_colours, row.taken_back.mask, columns, -1, row.taken_back.plus);
+  if (row.recoloured.mask == 0) return;
+  std::copy_n(row.added.index, SourceRow<lanes>::kColumns, row.recoloured.index);
+  load_sane<lanes>(colours, *sources.sanitiser, row.recoloured.mask, columns, row.recoloured.plus);
+  load_plain<lanes>(old_colours, row.recoloured.mask, columns, 1, row.recoloured.minus);
+}
+
+}  // namespace
+
+template <int lanes>
+void collect(const Sources& sources, int x, int y, std::uint64_t mask, RowSources<lanes>& row) noexcept {
+  dispatch(sources.state->colour.type(),
+           [&]<SampleType type>() { collect_typed<lanes, type>(sources, x, y, mask, row); });
+}
+template void collect(const Sources&, int, int, std::uint64_t, RowSources<kOpaqueLanes>&) noexcept;
+template void collect(const Sources&, int, int, std::uint64_t, RowSources<kAlphaLanes>&) noexcept;
+
+}  // namespace pullfocus
+#endif
