@@ -26,8 +26,8 @@ template <int lanes>
 using WriteRow = void (*)(const KernelTable& kernels, const SourceRow<lanes>& row, int y, const BandImage& image,
                           Band& band);
 
-// For the processor at hand. `with_minus`: false if every `minus` is to be taken as 0.
+// For the processor at hand.
 template <int lanes>
-WriteRow<lanes> row_writer(bool with_minus) noexcept;
+WriteRow<lanes> row_writer(RowKind kind) noexcept;
 
 }  // namespace pullfocus

@@ -83,28 +83,6 @@ KernelEdge make_edge(Kernel& kernel, int dx, std::uint8_t from, std::uint8_t to)
   return {static_cast<std::int16_t>(dx), static_cast<std::uint8_t>(found - kernel.steps.begin()), from < to};
 }
 
-void make_chains(Kernel& kernel) {
-  for (auto& lists : kernel.chains) {
-    for (ChainList& list : lists) list = {{}, {0}};
-  }
-  for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
-    const auto row = kernel.row(dy);
-    for (std::size_t i = 0; i < row.size();) {
-      std::size_t n = 1;
-      while (n < kMaxChain && i + n < row.size() && row[i + n].rising == row[i].rising &&
-             row[i + n].dx == row[i].dx + static_cast<int>(n))
-        ++n;
-      KernelChain& chain = kernel.chains[row[i].rising][n - 1].chains.emplace_back(
-          KernelChain{row[i].dx, static_cast<std::int16_t>(dy), {}});
-      for (std::size_t k = 0; k < n; ++k) chain.steps[k] = row[i + k].step;
-      i += n;
-    }
-    for (auto& lists : kernel.chains) {
-      for (ChainList& list : lists) list.row_begin.push_back(static_cast<std::uint32_t>(list.chains.size()));
-    }
-  }
-}
-
 }  // namespace
 
 Kernel reflected(const Kernel& kernel) {
@@ -118,7 +96,6 @@ Kernel reflected(const Kernel& kernel) {
     }
     result.row_begin.push_back(static_cast<std::uint32_t>(result.edges.size()));
   }
-  make_chains(result);
   return result;
 }
 
@@ -147,7 +124,6 @@ Kernel kernel_from_shares(int rx, int ry, const std::vector<std::int32_t>& value
   const std::vector<Level> levels = distinct_shares(values);
   assert(levels.size() > 1 && levels.size() <= 256);
   kernel.levels = weights(levels);
-  for (std::size_t k = 1; k < levels.size(); ++k) kernel.steps.push_back({0, static_cast<std::uint8_t>(k)});
   std::int32_t last_share = 0;
   std::uint8_t last_level = 0;
   const auto level_of = [&](std::int32_t share) {
@@ -171,7 +147,6 @@ Kernel kernel_from_shares(int rx, int ry, const std::vector<std::int32_t>& value
     }
     kernel.row_begin.push_back(static_cast<std::uint32_t>(kernel.edges.size()));
   }
-  make_chains(kernel);
   if (kernel.steps.size() > kMaxKernelSteps) throw std::logic_error("a kernel has too many kinds of edges");
   return kernel;
 }

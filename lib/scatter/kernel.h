@@ -30,18 +30,6 @@ struct KernelEdge {
   bool rising;        // from low to high; else from high to low
 };
 
-// Edges of the same sign at neighbouring columns dx, dx + 1, ... of row dy: they are written together.
-inline constexpr int kMaxChain = 4;
-struct KernelChain {
-  std::int16_t dx, dy;
-  std::uint8_t steps[kMaxChain];
-};
-// Chains of one length and sign, row by row.
-struct ChainList {
-  std::vector<KernelChain> chains;
-  std::vector<std::uint32_t> row_begin;
-};
-
 // All pairs of 16 levels and the outside. The scatter keeps steps x 8 columns x 5 lanes of sums on the stack (43.5 kB
 // at most), of which a kernel touches only as much as it has steps; only noisy pictures have them all.
 inline constexpr std::size_t kMaxKernelSteps = 17 * 16 / 2;
@@ -49,21 +37,13 @@ inline constexpr std::size_t kMaxKernelSteps = 17 * 16 / 2;
 struct Kernel {
   int radius_x = 0, radius_y = 0;        // columns -radius_x..radius_x and rows -radius_y..radius_y hold all weight
   std::vector<std::int64_t> levels;      // ascending weights; levels[0] = 0 is outside
-  std::vector<KernelStep> steps;         // distinct pairs of levels, at most kMaxKernelSteps; first those from 0 to
-                                         // every level: step k - 1 has the values of level k
+  std::vector<KernelStep> steps;         // distinct pairs of levels, at most kMaxKernelSteps
   std::vector<std::uint32_t> row_begin;  // edges of row dy are [row_begin[dy + radius_y], row_begin[.. + 1])
   std::vector<KernelEdge> edges;
-  ChainList chains[2][kMaxChain];  // the same edges, by falling/rising and length - 1
 
   std::span<const KernelEdge> row(int dy) const noexcept {
     const auto r = static_cast<std::size_t>(dy + radius_y);
     return {edges.data() + row_begin[r], row_begin[r + 1] - row_begin[r]};
-  }
-  // Chains of rows [dy0, dy1).
-  std::span<const KernelChain> rows(const ChainList& list, int dy0, int dy1) const noexcept {
-    const auto a = list.row_begin[static_cast<std::size_t>(dy0 + radius_y)],
-               b = list.row_begin[static_cast<std::size_t>(dy1 + radius_y)];
-    return {list.chains.data() + a, b - a};
   }
   std::uint8_t level_behind(const KernelEdge& edge) const noexcept {
     return edge.rising ? steps[edge.step].high : steps[edge.step].low;

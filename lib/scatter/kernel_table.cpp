@@ -111,6 +111,9 @@ KernelTable::KernelTable(const KernelOptions& options)
   if (!point_symmetric) {
     for (const Kernel& kernel : kernels_) in_front_.push_back(reflected(kernel));
   }
+  for (const Kernel& kernel : kernels_) plans_.push_back(plan_of(kernel));
+  for (const Kernel& kernel : in_front_) plans_in_front_.push_back(plan_of(kernel));
+  moves_ = std::vector<Move>(static_cast<std::size_t>((2 * coc_.size() - 1) * (2 * kFarthestMove + 1)));
   for (const Kernel& kernel : kernels_) {
     areas_.push_back(area_of(kernel));
     edges_.push_back(kernel.edge_count());
@@ -123,6 +126,15 @@ KernelTable::KernelTable(const KernelOptions& options)
                                               "to {} px: use at most {:.0f}, or a smaller --max-coc",
                                               options.max_radiance, options.max_coc_px, std::floor(limit)));
   }
+}
+
+std::span<const EdgePlan> KernelTable::move(int from, int to) const {
+  const int slot = (from + coc_.size() - 1) * (2 * kFarthestMove + 1) + to - from + kFarthestMove;
+  Move& move = moves_[static_cast<std::size_t>(slot)];
+  std::call_once(move.once, [&] {
+    move.plans = std::make_unique<const std::vector<EdgePlan>>(plans_of_move(kernel(from), kernel(to)));
+  });
+  return *move.plans;
 }
 
 }  // namespace pullfocus

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <span>
 #include <vector>
 
 #include "scatter/coc_table.h"
+#include "scatter/edge_plan.h"
 #include "scatter/kernel.h"
 #include "scatter/kernel_shape.h"
 
@@ -34,6 +38,13 @@ class KernelTable {
     const bool front = signed_index < 0 && !in_front_.empty();
     return (front ? in_front_ : kernels_)[static_cast<std::size_t>(signed_index < 0 ? -signed_index : signed_index)];
   }
+  const EdgePlan& plan(int signed_index) const noexcept {
+    const bool front = signed_index < 0 && !in_front_.empty();
+    return (front ? plans_in_front_ : plans_)[static_cast<std::size_t>(std::abs(signed_index))];
+  }
+  // For going from one index to another that is at most kFarthestMove away. Made when first asked for, from any thread.
+  static constexpr int kFarthestMove = 4;
+  std::span<const EdgePlan> move(int from, int to) const;
   // Of the kernel; 0 for what is no index of the table.
   int edge_count(int signed_index) const noexcept {
     const auto index = static_cast<std::size_t>(std::abs(signed_index));
@@ -50,8 +61,14 @@ class KernelTable {
   std::vector<Kernel> kernels_;
   std::vector<Kernel> in_front_;  // empty if every kernel is its own reflection
   bool symmetric_ = true;
-  std::vector<double> areas_;  // by |index|
-  std::vector<int> edges_;     // by |index|: a reflection has as many; and a 0
+  std::vector<EdgePlan> plans_, plans_in_front_;
+  struct Move {
+    std::once_flag once;
+    std::unique_ptr<const std::vector<EdgePlan>> plans;
+  };
+  mutable std::vector<Move> moves_;  // by signed index, then by where to
+  std::vector<double> areas_;        // by |index|
+  std::vector<int> edges_;           // by |index|: a reflection has as many; and a 0
   double overlap_bound_ = 0;
 };
 

@@ -35,19 +35,20 @@ struct Extent {
 // The k-th image of a row beyond its left (k < 0) or right border, mirrored where k is odd: those of its sources that
 // lie within `reach` of the picture.
 template <int lanes>
-void image_of(const SourceRow<lanes>& row, bool with_minus, int k, int width, int reach,
-              SourceRow<lanes>& out) noexcept {
+void image_of(const SourceRow<lanes>& row, RowKind kind, int k, int width, int reach, SourceRow<lanes>& out) noexcept {
   const bool mirrored = k % 2 != 0;
   out.x = mirrored ? (k + 1) * width - kTileWidth - row.x : row.x + k * width;
   out.mask = 0;
   std::fill(std::begin(out.index), std::end(out.index), kNeverCommitted);
+  std::fill(std::begin(out.old), std::end(out.old), kNeverCommitted);
   for_each_pixel(row.mask, [&](int i) {
     const int to = mirrored ? kTileWidth - 1 - i : i, x = out.x + to;
     if (x < -reach || x >= width + reach) return;
     out.mask |= std::uint64_t{1} << to;
     out.index[to] = row.index[i];
     std::copy_n(row.plus + i * lanes, lanes, out.plus + to * lanes);
-    if (with_minus) std::copy_n(row.minus + i * lanes, lanes, out.minus + to * lanes);
+    if (kind != RowKind::plain) std::copy_n(row.minus + i * lanes, lanes, out.minus + to * lanes);
+    if (kind == RowKind::moved) out.old[to] = row.old[i];
   });
 }
 
@@ -56,13 +57,13 @@ void image_of(const SourceRow<lanes>& row, bool with_minus, int k, int width, in
 // Kernels that are their own mirror images may fall on the pads, which are folded back in. For others this would turn
 // the light the wrong way round: there the sources are mirrored instead, and the pads are dropped.
 template <int lanes, typename Write>
-void Scatter::write_beyond(Band& band, const SourceRow<lanes>& row, bool with_minus, int y, int reach,
+void Scatter::write_beyond(Band& band, const SourceRow<lanes>& row, RowKind kind, int y, int reach,
                            const BandImage& image, Write&& write) const {
   SourceRow<lanes> beyond;
   const int most = reach / grid_.width + 1;
   for (int k = -most; k <= most; ++k) {
     if (k == 0 || row.mask == 0) continue;
-    image_of(row, with_minus, k, grid_.width, reach, beyond);
+    image_of(row, kind, k, grid_.width, reach, beyond);
     if (beyond.mask == 0) continue;
     const int ya = std::max(image.y0, y - reach_y_.back()), yb = std::min(image.y1, y + reach_y_.back() + 1);
     const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
@@ -96,7 +97,7 @@ void Scatter::write_hidden(Band& band, const Sources& sources, int x, int y, std
   RowSources<lanes> row;
   collect<lanes>(Sources{sources.state}, x, y, mask, row);
   write(row.added, false);
-  if (!fold) write_beyond(band, row.added, false, y, reach, image, write);
+  if (!fold) write_beyond(band, row.added, RowKind::plain, y, reach, image, write);
 }
 
 template <int lanes>
@@ -114,7 +115,6 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
       images.push_back({y0, y1, flipped ? band.y1() - 1 : band.y0(), flipped ? -1 : 1});
   }
 
-  const WriteRow<lanes> write_plain = row_writer<lanes>(false), write_changed = row_writer<lanes>(true);
   RowSources<lanes> row;
   for (const BandImage& image : images) {
     for (const TileWork& work : tiles) {
@@ -132,17 +132,18 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
         if (hidden != 0) write_hidden<lanes>(band, sources, x, y + i, hidden, rx, image, layout.fold);
         if (!sources.is_plain) continue;
         collect<lanes>(sources, x, y + i, work.mask.rows[i], row);
-        const auto write = [&](const SourceRow<lanes>& of_row, bool with_minus) {
+        const auto write = [&](const SourceRow<lanes>& of_row, RowKind kind) {
           if (of_row.mask == 0) return;
-          const WriteRow<lanes> write_row = with_minus ? write_changed : write_plain;
+          const WriteRow<lanes> write_row = row_writer<lanes>(kind);
           write_row(kernels_, of_row, y + i, image, band);
           if (layout.fold) return;
-          write_beyond(band, of_row, with_minus, y + i, rx, image,
+          write_beyond(band, of_row, kind, y + i, rx, image,
                        [&](const SourceRow<lanes>& beyond, bool) { write_row(kernels_, beyond, y + i, image, band); });
         };
-        write(row.added, false);
-        write(row.taken_back, false);
-        write(row.recoloured, true);
+        write(row.added, RowKind::plain);
+        write(row.taken_back, RowKind::plain);
+        write(row.recoloured, RowKind::recoloured);
+        write(row.moved, RowKind::moved);
       }
     }
   }

@@ -51,7 +51,7 @@ class Scatter {
   void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout) const;
 
   template <int lanes, typename Write>
-  void write_beyond(Band& band, const SourceRow<lanes>& row, bool with_minus, int y, int reach, const BandImage& image,
+  void write_beyond(Band& band, const SourceRow<lanes>& row, RowKind kind, int y, int reach, const BandImage& image,
                     Write&& write) const;
 
   template <int lanes>

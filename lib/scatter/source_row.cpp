@@ -53,6 +53,23 @@ std::uint64_t Equal(const std::int16_t* a, const std::int16_t* b) {
   return bits;
 }
 
+// Bit i: |a[i] - b[i]| <= most, of kTileWidth values.
+std::uint64_t Near(const std::int16_t* a, const std::int16_t* b, std::int16_t most) {
+  const hn::CappedTag<std::int16_t, 32> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  const auto high = hn::Set(d, most), low = hn::Neg(high);
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kTileWidth; i += step) {
+    const auto v = hn::SaturatedSub(hn::LoadU(d, a + i), hn::LoadU(d, b + i));
+    std::uint8_t stored[8] = {};
+    hn::StoreMaskBits(d, hn::Not(hn::Or(hn::Lt(v, low), hn::Gt(v, high))), stored);
+    std::uint64_t part = 0;
+    std::memcpy(&part, stored, sizeof part);
+    bits |= part << i;
+  }
+  return bits;
+}
+
 // Bit i: first <= a[i] <= last, of kTileWidth values.
 std::uint64_t Within(const std::int16_t* a, std::int16_t first, std::int16_t last) {
   const hn::CappedTag<std::int16_t, 32> d;
@@ -94,6 +111,7 @@ namespace pullfocus {
 namespace {
 
 HWY_EXPORT(Equal);
+HWY_EXPORT(Near);
 HWY_EXPORT(Within);
 HWY_EXPORT(OpaqueHalf);
 HWY_EXPORT(OpaqueFloat);
@@ -168,8 +186,8 @@ void collect_typed(const Sources& sources, int x, int y, std::uint64_t mask, Row
   const int columns = std::min(kTileWidth, w.width() - x);
   const auto* old_colours = reinterpret_cast<const Pixel<type>*>(sources.state->colour.pixel(w.x0 + x, w.y0 + y));
   const std::int16_t* old_index = sources.state->index.data() + offset;
-  row.added.x = row.taken_back.x = row.recoloured.x = x;
-  row.taken_back.mask = row.recoloured.mask = 0;
+  row.added.x = row.taken_back.x = row.recoloured.x = row.moved.x = x;
+  row.taken_back.mask = row.recoloured.mask = row.moved.mask = 0;
   if (sources.frame == nullptr) {
     load_indices(old_index, columns, row.added.index);
     row.added.mask = mask & within(row.added.index, sources.range);
@@ -179,17 +197,26 @@ void collect_typed(const Sources& sources, int x, int y, std::uint64_t mask, Row
   const auto* colours = reinterpret_cast<const Pixel<type>*>(sources.frame->colour.pixel(w.x0 + x, w.y0 + y));
   load_indices(sources.pending + offset, columns, row.added.index);
   load_indices(old_index, columns, row.taken_back.index);
-  const std::uint64_t same = HWY_DYNAMIC_DISPATCH(Equal)(row.added.index, row.taken_back.index);
-  const std::uint64_t now = mask & within(row.added.index, sources.range);
-  row.added.mask = now & ~same;
-  row.taken_back.mask = mask & ~same & within(row.taken_back.index, sources.range);
+  const std::int16_t *const is = row.added.index, *const was = row.taken_back.index;
+  const std::uint64_t now = mask & within(is, sources.range), then = mask & within(was, sources.range);
+  const std::uint64_t same = HWY_DYNAMIC_DISPATCH(Equal)(is, was);
+  const std::uint64_t near = HWY_DYNAMIC_DISPATCH(Near)(is, was, KernelTable::kFarthestMove);
+  const auto load_both = [&](SourceRow<lanes>& both) {
+    std::copy_n(is, SourceRow<lanes>::kColumns, both.index);
+    load_sane<lanes>(colours, *sources.sanitiser, both.mask, columns, both.plus);
+    load_plain<lanes>(old_colours, both.mask, columns, 1, both.minus);
+  };
   row.recoloured.mask = now & same;
+  if (row.recoloured.mask != 0) load_both(row.recoloured);
+  row.moved.mask = now & then & near & ~same;
+  if (row.moved.mask != 0) {
+    load_both(row.moved);
+    std::copy_n(was, SourceRow<lanes>::kColumns, row.moved.old);
+  }
+  row.added.mask = now & ~same & ~row.moved.mask;
+  row.taken_back.mask = then & ~same & ~row.moved.mask;
   load_sane<lanes>(colours, *sources.sanitiser, row.added.mask, columns, row.added.plus);
   load_plain<lanes>(old_colours, row.taken_back.mask, columns, -1, row.taken_back.plus);
-  if (row.recoloured.mask == 0) return;
-  std::copy_n(row.added.index, SourceRow<lanes>::kColumns, row.recoloured.index);
-  load_sane<lanes>(colours, *sources.sanitiser, row.recoloured.mask, columns, row.recoloured.plus);
-  load_plain<lanes>(old_colours, row.recoloured.mask, columns, 1, row.recoloured.minus);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "image/sanitise.h"
 #include "image/tiles.h"
 #include "scatter/band.h"
+#include "scatter/kernel_table.h"
 #include "scatter/layers.h"
 #include "scatter/state.h"
 
@@ -39,8 +40,14 @@ struct Sources {
 // Columns that are written together, at most.
 inline constexpr int kWindow = 8;
 
-// Pixels of one tile row as sources: column i contributes round(plus * w) at weight w, less round(minus * w) where it
-// goes with a `minus`, lane by lane. Columns outside the mask hold anything.
+// What the pixels of a row contribute, lane by lane.
+enum class RowKind {
+  plain,       // round(plus * w) at weight w of the kernel
+  recoloured,  // round(plus * w) - round(minus * w)
+  moved        // round(plus * w) at weight w of the kernel, less round(minus * w) at weight w of the old one
+};
+
+// Pixels of one tile row as sources. Columns outside the mask hold anything.
 template <int lanes>
 struct SourceRow {
   static constexpr int kColumns = kTileWidth + kWindow;  // the last may be read, but are no sources
@@ -48,15 +55,15 @@ struct SourceRow {
   int x = 0;                     // image column of column 0
   std::uint64_t mask = 0;        // bit i: column i is a source
   std::int16_t index[kColumns];  // whose kernels
+  std::int16_t old[kColumns];    // of moved ones: at most KernelTable::kFarthestMove away
   alignas(64) double plus[kColumns * lanes], minus[kColumns * lanes];
 };
 
-// All that one tile row contributes. Colours that changed at the same index go with a minus; a pixel that changes its
-// index is added at the new one, and its old colour, negated, at the old one: which takes it back to the last bit, as
-// rounding to even is symmetric.
+// All that one tile row contributes. A pixel whose index changes by much is added at the new one, and its old colour,
+// negated, at the old one: which takes it back to the last bit, as rounding to even is symmetric.
 template <int lanes>
 struct RowSources {
-  SourceRow<lanes> added, taken_back, recoloured;
+  SourceRow<lanes> added, taken_back, recoloured, moved;
 };
 
 // The lanes of one sane pixel.

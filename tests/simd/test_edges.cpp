@@ -29,9 +29,8 @@ void write_plainly(const Kernel& kernel, int x, const double* plus, const double
       const KernelStep step = kernel.steps[edge.step];
       Accumulator* out = band.row(image.band_row(row)) + (x + edge.dx) * lanes;
       for (int c = 0; c < lanes; ++c) {
-        const double taken = minus == nullptr ? 0 : minus[c];
-        const Accumulator change = contribution(plus[c], taken, kernel.levels[step.high]) -
-                                   contribution(plus[c], taken, kernel.levels[step.low]);
+        const Accumulator change = contribution(plus[c], minus[c], kernel.levels[step.high]) -
+                                   contribution(plus[c], minus[c], kernel.levels[step.low]);
         out[c] += edge.rising ? change : -change;
       }
     }
@@ -65,7 +64,7 @@ void check_random_rows(const KernelOptions& options) {
   const int size = kernels.coc().size();
   const BandLayout layout{kWidth, kHeight, 100, lanes};
   for (int round = 0; round < 60; ++round) {
-    const bool with_minus = round % 2;
+    const auto kind = static_cast<RowKind>(round % 3);
     const bool flipped = random() % 2;
     const int y0 = 4, y1 = 20, y = -5 + static_cast<int>(random() % 35);
     const BandImage image{y0, y1, flipped ? y1 - 1 : y0, flipped ? -1 : 1};
@@ -78,15 +77,24 @@ void check_random_rows(const KernelOptions& options) {
     std::fill(sources.index + kTileWidth, std::end(sources.index), kNeverCommitted);
     for (int i = 0; i < kTileWidth; ++i) {
       random_lanes<lanes>(random, true, sources.plus + i * lanes);
-      random_lanes<lanes>(random, with_minus && random() % 2, sources.minus + i * lanes);
+      random_lanes<lanes>(random, random() % 2, sources.minus + i * lanes);
+      const int far = KernelTable::kFarthestMove, by = static_cast<int>(random() % (2u * far + 1)) - far;
+      sources.old[i] =
+          static_cast<std::int16_t>(std::clamp(sources.index[i] + (random() % 3 ? 1 : by), 1 - size, size - 1));
     }
+    std::fill(sources.old + kTileWidth, std::end(sources.old), kNeverCommitted);
     Band band, expected;
     band.begin(layout, y0, y1);
     expected.begin(layout, y0, y1);
-    row_writer<lanes>(with_minus)(kernels, sources, y, image, band);
+    row_writer<lanes>(kind)(kernels, sources, y, image, band);
     for_each_pixel(sources.mask, [&](int i) {
-      write_plainly<lanes>(kernels.kernel(sources.index[i]), sources.x + i, sources.plus + i * lanes,
-                           with_minus ? sources.minus + i * lanes : nullptr, y, image, expected);
+      const double nothing[lanes] = {};
+      const auto write = [&](int index, const double* plus, const double* minus) {
+        write_plainly<lanes>(kernels.kernel(index), sources.x + i, plus, minus, y, image, expected);
+      };
+      const double *const plus = sources.plus + i * lanes, *const minus = sources.minus + i * lanes;
+      write(sources.index[i], plus, kind == RowKind::recoloured ? minus : nothing);
+      if (kind == RowKind::moved) write(sources.old[i], nothing, minus);
     });
     for (int row = y0; row < y1; ++row) {
       for (int i = -layout.pad * lanes; i < (kWidth + layout.pad) * lanes; ++i) {
