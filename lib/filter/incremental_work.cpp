@@ -64,15 +64,16 @@ std::int64_t IncrementalFilter::pixels_to_resolve() const noexcept {
   return uncommitted_ > 0 ? static_cast<std::int64_t>(core_.window.pixels()) : dirty_.pixels();
 }
 
-// Edges decide. Changed pixels lie scattered and convert two colours, hence a quarter more an edge than a
-// rebuild.
+// Integers fitted to times of frames done both ways (docs/benchmarks.md, "Update or rebuild"), with 5 for an edge.
+// Moved edges are written in one pass over both kernels; a pixel is detected, converted and resolved either way, but
+// one by one where changed pixels lie scattered.
 //
 // A kernel row whose bitmap is looked at costs as much as so many edges, whether anything is hidden there or not. An
 // update looks at it before and after the change, at sources that lie scattered, and at others around each pixel whose
 // depth has changed: taken as five times the cost in all.
 bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges,
                                            const std::vector<TileWork>& selected) const noexcept {
-  constexpr std::int64_t kRowEdges = 3;
+  constexpr std::int64_t kEdge = 5, kMovedEdge = 3, kUpdated = 64, kPixel = 32, kRowEdges = 3;
   const std::int64_t updated = count_pixels(selected);
   const std::int64_t edges_after = edges_ + edges.committed;
   const auto pixels = static_cast<std::int64_t>(core_.window.pixels());
@@ -81,7 +82,9 @@ bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges,
     hidden = core_.occlusion->need(selected).rows * kRowEdges;
     hidden_after = core_.occlusion->need().rows * kRowEdges;
   }
-  return updated > 0 && 5 * edges.written + 20 * hidden + 32 * updated > 4 * (edges_after + hidden_after) + 32 * pixels;
+  const std::int64_t update =
+      kEdge * (edges.written - edges.moved + 5 * hidden) + kMovedEdge * edges.moved + kUpdated * updated;
+  return updated > 0 && update > kEdge * (edges_after + hidden_after) + kPixel * pixels;
 }
 
 void IncrementalFilter::add(const std::vector<LayerWork>& work, const Sources& sources) {

@@ -170,24 +170,6 @@ SegmentFindings CompareFloat(const DepthToIndex& to_index, const SegmentPair<Sam
   return Compare(to_index, pair, index, difference);
 }
 
-// True if no |sample| exceeds the limit; magnitudes order as integers do.
-template <class T>
-HWY_INLINE bool Within(const T* samples, int n, T limit) {
-  const hn::ScalableTag<T> d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  constexpr T without_sign = std::numeric_limits<T>::max();
-  const auto most = hn::Set(d, limit), mask = hn::Set(d, without_sign);
-  auto largest = hn::Zero(d);
-  int i = 0;
-  for (; i + lanes <= n; i += lanes) largest = hn::Max(largest, hn::And(hn::LoadU(d, samples + i), mask));
-  bool within = hn::AllFalse(d, hn::Gt(largest, most));
-  for (; i < n; ++i) within &= static_cast<T>(samples[i] & without_sign) <= limit;
-  return within;
-}
-
-bool WithinHalf(const std::int16_t* samples, int n, std::int16_t limit) { return Within(samples, n, limit); }
-bool WithinFloat(const std::int32_t* samples, int n, std::int32_t limit) { return Within(samples, n, limit); }
-
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace pullfocus
@@ -199,8 +181,6 @@ namespace pullfocus {
 HWY_EXPORT(SignedIndices);
 HWY_EXPORT(CompareHalf);
 HWY_EXPORT(CompareFloat);
-HWY_EXPORT(WithinHalf);
-HWY_EXPORT(WithinFloat);
 
 SegmentFindings signed_indices(const DepthToIndex& to_index, const float* depth, int n, std::int16_t* index) noexcept {
   return HWY_DYNAMIC_DISPATCH(SignedIndices)(to_index, depth, n, index);
@@ -216,23 +196,10 @@ SegmentFindings compare(const DepthToIndex& to_index, const SegmentPair<type>& p
   }
 }
 
-template <SampleType type>
-bool all_sane(const Sanitiser& sanitiser, const Pixel<type>* pixels, int n) noexcept {
-  if constexpr (type == SampleType::half) {
-    return HWY_DYNAMIC_DISPATCH(WithinHalf)(reinterpret_cast<const std::int16_t*>(pixels), 4 * n,
-                                            static_cast<std::int16_t>(sanitiser.limit<type>()));
-  } else {
-    return HWY_DYNAMIC_DISPATCH(WithinFloat)(reinterpret_cast<const std::int32_t*>(pixels), 4 * n,
-                                             static_cast<std::int32_t>(sanitiser.limit<type>()));
-  }
-}
-
 template SegmentFindings compare(const DepthToIndex&, const SegmentPair<SampleType::half>&, std::int16_t*,
                                  SegmentDifference&) noexcept;
 template SegmentFindings compare(const DepthToIndex&, const SegmentPair<SampleType::float32>&, std::int16_t*,
                                  SegmentDifference&) noexcept;
-template bool all_sane(const Sanitiser&, const Pixel<SampleType::half>*, int) noexcept;
-template bool all_sane(const Sanitiser&, const Pixel<SampleType::float32>*, int) noexcept;
 
 }  // namespace pullfocus
 #endif

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "camera/thin_lens.h"
-#include "image/sanitise.h"
+#include "image/sane.h"
 #include "image/tiles.h"
 #include "scatter/coc_table.h"
 
@@ -56,10 +56,5 @@ struct SegmentDifference {
 template <SampleType type>
 SegmentFindings compare(const DepthToIndex& to_index, const SegmentPair<type>& pair, std::int16_t* index,
                         SegmentDifference& difference) noexcept;
-
-// True only if no sample of n pixels is NaN, infinite or beyond the sanitiser's limit: it would change nothing. May be
-// false where the sanitiser lets a pixel pass that has an alpha above a limit below 1.
-template <SampleType type>
-bool all_sane(const Sanitiser& sanitiser, const Pixel<type>* pixels, int n) noexcept;
 
 }  // namespace pullfocus

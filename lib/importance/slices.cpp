@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace pullfocus {
 
@@ -15,7 +16,9 @@ constexpr double kTileEdges = 4000;
 EdgeCount edges_of_pixel(const Pending& pending, std::size_t at) noexcept {
   const std::int16_t was = pending.state.index[at], is = pending.index[at];
   const std::int64_t before = pending.kernels.edge_count(was), after = pending.kernels.edge_count(is);
-  return {was == is ? after : before + after, after - before};
+  if (was == is) return {after, 0, 0};
+  const bool near = is_source(was) && is_source(is) && std::abs(is - was) <= KernelTable::kFarthestMove;
+  return {before + after, near ? before + after : 0, after - before};
 }
 
 std::size_t position(const TileGrid& grid, int x, int y) noexcept {
@@ -27,6 +30,7 @@ EdgeCount edges_of_tile(const TileGrid& grid, const TileWork& work, const Pendin
   const auto add = [&](std::size_t at) {
     const EdgeCount pixel = edges_of_pixel(pending, at);
     count.written += pixel.written;
+    count.moved += pixel.moved;
     count.committed += pixel.committed;
   };
   for (int i = 0; i < kTileHeight; ++i) {
@@ -52,6 +56,7 @@ EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending
   EdgeCount sum;
   for (const EdgeCount& count : counts) {
     sum.written += count.written;
+    sum.moved += count.moved;
     sum.committed += count.committed;
   }
   return sum;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "image/sane.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scatter/source_row.cpp"
 #include <hwy/foreach_target.h>
@@ -163,6 +165,7 @@ template <int lanes, SampleType type>
 void load_sane(const Pixel<type>* pixels, const Sanitiser& sanitiser, std::uint64_t mask, int columns,
                double* out) noexcept {
   for_pieces(mask, columns, [&](int i, int n) {
+    if (all_sane<type>(sanitiser, pixels + i, n)) return to_lanes<lanes>(pixels + i, n, 1, out + i * lanes);
     Pixel<type> sane[kTileWidth];
     for (int k = 0; k < n; ++k) sane[k] = sanitiser(pixels[i + k]);
     to_lanes<lanes>(sane, n, 1, out + i * lanes);

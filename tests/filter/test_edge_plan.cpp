@@ -1,0 +1,162 @@
+// Plans of edges against the kernels they are made of.
+#include "scatter/edge_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <utility>
+
+#include "scatter/kernel_table.h"
+
+namespace pullfocus {
+namespace {
+
+using Weights = std::map<std::pair<int, int>, std::int64_t>;  // by dx, dy
+
+// What a plan gives for colours of 1: every value row in turn, edges to differences, differences to weights.
+void follow(const EdgePlan& plan, Weights& weights) {
+  std::vector<std::int64_t> rows;
+  for (std::size_t k = 0; k < plan.weights.size(); ++k) {
+    const auto weight = static_cast<std::int64_t>(plan.weights[k]);
+    rows.push_back(k < plan.of_plus ? weight : -weight);
+  }
+  for (const RowPair& pair : plan.differences) rows.push_back(rows[pair.a] - rows[pair.b]);
+  for (const RowPair& pair : plan.sums) rows.push_back(rows[pair.a] + rows[pair.b]);
+  if (plan.has_zeros) rows.push_back(0);
+  ASSERT_LE(rows.size(), kMostValueRows);
+  Weights edges;
+  for (const bool rising : {false, true}) {
+    for (int length = 1; length <= kMaxChain; ++length) {
+      for (const EdgeChain& chain : plan.rows(rising, length, -plan.radius_y, plan.radius_y + 1)) {
+        for (int k = 0; k < length; ++k) {
+          ASSERT_LT(chain.rows[k], rows.size());
+          edges[{chain.dx + k, chain.dy}] += (rising ? 1 : -1) * rows[chain.rows[k]];
+        }
+      }
+    }
+  }
+  for (int dy = -plan.radius_y; dy <= plan.radius_y; ++dy) {
+    std::int64_t sum = 0;
+    for (int dx = -80; dx <= 80; ++dx) {
+      const auto edge = edges.find({dx, dy});
+      if (edge != edges.end()) sum += edge->second;
+      weights[{dx, dy}] += sum;
+    }
+    ASSERT_EQ(sum, 0) << "row " << dy;
+  }
+}
+
+void add(const Kernel& kernel, int sign, Weights& weights) {
+  for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
+    for (int dx = -kernel.radius_x; dx <= kernel.radius_x; ++dx) weights[{dx, dy}] += sign * kernel.weight(dx, dy);
+  }
+}
+
+void expect_equal(Weights a, Weights b) {
+  std::erase_if(a, [](const auto& entry) { return entry.second == 0; });
+  std::erase_if(b, [](const auto& entry) { return entry.second == 0; });
+  ASSERT_EQ(a, b);
+}
+
+std::size_t chains(const EdgePlan& plan) {
+  std::size_t sum = 0;
+  for (const auto& lists : plan.chains) {
+    for (const ChainList& list : lists) sum += list.chains.size();
+  }
+  return sum;
+}
+
+KernelOptions options_of(KernelShape::Kind kind) {
+  KernelOptions options;
+  options.max_coc_px = 60;
+  options.shape.kind = kind;
+  options.shape.blades = 5;
+  return options;
+}
+
+class EdgePlans : public testing::TestWithParam<KernelShape::Kind> {};
+
+TEST_P(EdgePlans, GiveWhatTheirKernelGives) {
+  const KernelTable table(options_of(GetParam()));
+  for (int index = 1 - table.coc().size(); index < table.coc().size(); ++index) {
+    Weights planned, given;
+    follow(table.plan(index), planned);
+    add(table.kernel(index), 1, given);
+    expect_equal(planned, given);
+    ASSERT_FALSE(HasFatalFailure()) << "index " << index;
+  }
+}
+
+TEST_P(EdgePlans, OfMovesGiveTheNewKernelLessTheOldOne) {
+  const KernelTable table(options_of(GetParam()));
+  const int last = table.coc().size() - 1;
+  for (int from = -last; from <= last; from += 3) {
+    for (const int by : {-KernelTable::kFarthestMove, -1, 1, 2, KernelTable::kFarthestMove}) {
+      const int to = from + by;
+      if (std::abs(to) > last) continue;
+      Weights planned, given;
+      for (const EdgePlan& plan : table.move(from, to)) follow(plan, planned);
+      add(table.kernel(to), 1, given);
+      add(table.kernel(from), -1, given);
+      expect_equal(planned, given);
+      ASSERT_FALSE(HasFatalFailure()) << from << " to " << to;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, EdgePlans,
+                         testing::Values(KernelShape::Kind::disc, KernelShape::Kind::polygon,
+                                         KernelShape::Kind::gaussian, KernelShape::Kind::diffraction));
+
+TEST(EdgePlan, WritesTheEdgesOfNeighbouringDiscsTogether) {
+  const KernelTable table(options_of(KernelShape::Kind::disc));
+  for (int index = 10; index + 1 < table.coc().size(); ++index) {
+    const std::size_t apart = chains(table.plan(index)) + chains(table.plan(index + 1));
+    ASSERT_EQ(table.move(index, index + 1).size(), 1u);
+    EXPECT_LE(chains(table.move(index, index + 1)[0]), 0.62 * static_cast<double>(apart)) << index;
+  }
+}
+
+// Noise of 16 levels has all pairs of them as edges: two kernels need more value rows than there are.
+TEST(EdgePlan, IsSplitWhereTwoKernelsNeedTooManyRows) {
+  std::mt19937 random(6);
+  const auto noise = [&] {
+    std::vector<std::int32_t> shares;
+    for (int i = 0; i < 41 * 41; ++i) shares.push_back(static_cast<std::int32_t>(random() % 17));
+    return kernel_from_shares(20, 20, shares);
+  };
+  const Kernel from = noise(), to = noise();
+  const std::vector<EdgePlan> plans = plans_of_move(from, to);
+  ASSERT_EQ(plans.size(), 2u);
+  Weights planned, given;
+  for (const EdgePlan& plan : plans) follow(plan, planned);
+  add(to, 1, given);
+  add(from, -1, given);
+  expect_equal(planned, given);
+}
+
+// Edges of any two levels meet at every column: sums run out of rows, and the rest is written apart.
+TEST(EdgePlan, StaysRightWhereSumsRunOutOfRows) {
+  std::mt19937 random(7);
+  const auto blocks = [&] {
+    std::vector<std::int32_t> shares;
+    for (int y = 0; y < 41; ++y) {
+      for (int x = 0; x < 41; ++x) shares.push_back(x % 2 ? 0 : static_cast<std::int32_t>(random() % 17));
+    }
+    return kernel_from_shares(20, 20, shares);
+  };
+  const Kernel from = blocks(), to = blocks();
+  const std::vector<EdgePlan> plans = plans_of_move(from, to);
+  ASSERT_EQ(plans.size(), 1u);
+  Weights planned, given;
+  follow(plans[0], planned);
+  EXPECT_GE(plans[0].weights.size() + plans[0].differences.size() + plans[0].sums.size(), kMostValueRows - 2);
+  add(to, 1, given);
+  add(from, -1, given);
+  expect_equal(planned, given);
+}
+
+}  // namespace
+}  // namespace pullfocus
