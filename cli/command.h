@@ -17,6 +17,7 @@ inline constexpr int kDone = 0, kFrameFailed = 1, kWrongUsage = 2;
 // Adds a subcommand's options to `app`; the returned function runs it after parsing and gives the exit code.
 // It may throw pullfocus::Error.
 using Run = std::function<int()>;
+Run add_bench_command(CLI::App& app);
 Run add_filter_command(CLI::App& app);
 Run add_compare_command(CLI::App& app);
 Run add_inspect_command(CLI::App& app);

@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
       cli::add_inspect_command);
   add("compare", "measure speed against error of methods and budgets over sequences", cli::add_compare_command);
   add("render", "make a synthetic RGB + depth sequence", cli::add_render_command);
+  add("bench", "measure the filter: the tables of docs/benchmarks.md", cli::add_bench_command);
 
   try {
     std::vector<std::string> arguments = cli::expand_config({argv + 1, argv + argc});

@@ -13,6 +13,7 @@ packages=(
   libembree-dev libtinygltf-dev # rays, glTF scenes
   python3 gnuplot-nox           # the report of speed against error
   libgtest-dev                  # tests
+  libbenchmark-dev              # micro-benchmarks
   openimageio-tools             # the demo's PNG; an independent reader in the tests
 )
 missing=()

@@ -1,5 +1,4 @@
-#include "batch.h"
-
+// [batch]: what filtering adds to a batch run that reads and writes EXR files.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -9,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "bench/table.h"
+#include "bench/timing.h"
 #include "command.h"
 #include "filter/core.h"
 #include "filter_run.h"
@@ -16,7 +17,7 @@
 #include "render_files.h"
 #include "star_lateral.h"
 
-namespace pullfocus::test {
+namespace pullfocus::cli::bench {
 
 namespace {
 
@@ -74,12 +75,12 @@ void write_shot(const std::string& folder, bool grain, int width, int height, in
   fs::create_directory(folder);
   const sequences::StarLateral scene{width, height};
   const sequences::StarLateralRenderer renderer(scene);
-  cli::Taken taken{sequences::star_lens(scene), sequences::star_sensor_height_mm(scene), true, ""};
+  Taken taken{sequences::star_lens(scene), sequences::star_sensor_height_mm(scene), true, ""};
   Frame frame;
   for (int i = kFirst; i < kFirst + frames; ++i) {
     renderer.render(i, frame);
     if (grain) add_grain(frame, static_cast<unsigned>(i));
-    cli::write_picture_and_depth(fmt::format("{}/shot.{:04d}.exr", folder, i), taken, frame);
+    write_picture_and_depth(fmt::format("{}/shot.{:04d}.exr", folder, i), taken, frame);
   }
 }
 
@@ -103,60 +104,62 @@ double processor_ms() {
 }
 
 Cost run(const BatchShot& shot, const std::string& in, const std::string& out, int threads, bool only_copy) {
-  cli::InputArguments input;
+  InputArguments input;
   input.input = in + "/shot.####.exr";
-  cli::CameraArguments camera;
+  CameraArguments camera;
   camera.lens = "paper";
   if (*shot.focus != '\0') camera.focus = shot.focus;
   if (*shot.fstop != '\0') camera.fstop = shot.fstop;
-  cli::FilterArguments filter;
+  FilterArguments filter;
   filter.threads = threads;
-  cli::RunArguments arguments;
+  RunArguments arguments;
   arguments.output = out;
   arguments.make_folder = true;
   arguments.only_copy = only_copy;
-  cli::use_threads(threads);
+  use_threads(threads);
   const double before = processor_ms();
   const Stopwatch watch;
-  if (cli::FilterRun(input, camera, filter, arguments).run() != cli::kDone) {
+  if (FilterRun(input, camera, filter, arguments).run() != kDone) {
     throw Error(ErrorCode::content, "a frame of the benchmark failed");
   }
   return {watch.ms(), processor_ms() - before};
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
+void print(const Settings& settings, Report& report) {
+  const int width = settings.quick ? 160 : 1920, height = settings.quick ? 90 : 1080, frames = settings.quick ? 3 : 12;
+  const int threads = settings.threads_or(settings.quick ? 2 : settings.processors);
+  const Folder folder;
+  report.columns({"shot", "filter / read and write only", "processor time, ratio", "read and write only, ms a frame",
+                  "MB a frame in, out"});
+  for (const BatchShot& shot : kShots) {
+    const std::string in = folder / (shot.grain ? "grain" : "plain");
+    if (!fs::exists(in)) write_shot(in, shot.grain, width, height, frames);
+    Times wall, processor, plain_ms;
+    const auto round = [&] {
+      const Cost plain = run(shot, in, folder / "copy", threads, true);
+      const Cost filtered = run(shot, in, folder / "out", threads, false);
+      wall.push_back(filtered.wall_ms / plain.wall_ms);
+      processor.push_back(filtered.processor_ms / plain.processor_ms);
+      plain_ms.push_back(plain.wall_ms / frames);
+    };
+    round();  // warms up
+    wall.clear(), processor.clear(), plain_ms.clear();
+    for (int i = 0; i < settings.runs_or(7); ++i) round();
+    const auto mb = [&](const std::string& of) { return static_cast<double>(bytes_in(of)) / frames / 1e6; };
+    report.row({fmt::format("{}: {}", shot.name, shot.description), text(spread(wall), 2), text(spread(processor), 2),
+                fmt::format("{:.0f}", median(plain_ms)), fmt::format("{:.1f}, {:.1f}", mb(in), mb(folder / "out"))});
+  }
+  report.end();
 }
 
 }  // namespace
 
-void measure_batch(bool quick, int threads) {
-  const int width = quick ? 320 : 1920, height = quick ? 180 : 1080, frames = quick ? 4 : 12, runs = quick ? 1 : 7;
-  const Folder folder;
-  fmt::print("star-lateral, {}x{}, {} frames, half RGB + float Z, ZIP; median of {} ratios of runs in turn\n\n", width,
-             height, frames, runs);
-  fmt::print(
-      "| shot | filter / read and write only | range | processor time, ratio | read and write only, ms a frame | MB a "
-      "frame in, out |\n|---|---|---|---|---|---|\n");
-  for (const BatchShot& shot : kShots) {
-    const std::string in = folder / (shot.grain ? "grain" : "plain");
-    if (!fs::exists(in)) write_shot(in, shot.grain, width, height, frames);
-    std::vector<double> wall, processor, plain_ms;
-    for (int i = 0; i <= runs; ++i) {
-      const Cost plain = run(shot, in, folder / "copy", threads, true);
-      const Cost filtered = run(shot, in, folder / "out", threads, false);
-      if (i == 0) continue;  // the first round warms up
-      wall.push_back(filtered.wall_ms / plain.wall_ms);
-      processor.push_back(filtered.processor_ms / plain.processor_ms);
-      plain_ms.push_back(plain.wall_ms / frames);
-    }
-    const auto mb = [&](const std::string& of) { return static_cast<double>(bytes_in(of)) / frames / 1e6; };
-    const auto [least, most] = std::minmax_element(wall.begin(), wall.end());
-    fmt::print("| {}: {} | {:.2f} | {:.2f}-{:.2f} | {:.2f} | {:.0f} | {:.1f}, {:.1f} |\n", shot.name, shot.description,
-               median(wall), *least, *most, median(processor), median(plain_ms), mb(in), mb(folder / "out"));
-    std::fflush(stdout);
-  }
-}
+const Table kBatchTable{
+    "batch", "Batch",
+    "`pullfocus filter` over 12 frames of `star-lateral`, 1920x1080, half RGB + float Z, ZIP, against the same "
+    "pipeline "
+    "without the filter, which only reads and writes the frames; median (range) of ratios of elapsed and of processor "
+    "time.",
+    "one a processor", print};
 
-}  // namespace pullfocus::test
+}  // namespace pullfocus::cli::bench

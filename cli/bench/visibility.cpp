@@ -1,23 +1,18 @@
-// What visibility costs: linear frames with layers and with bitmaps against plain ones, medians of ratios of processor
-// time of interleaved runs, one thread, and memory. Prints a Markdown table; judges nothing.
-//
-//   visibility [--quick]
+// [visibility]: what visibility costs.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <ctime>
 #include <random>
 
-#include "filter/core.h"
+#include "bench/table.h"
+#include "bench/timing.h"
 #include "filter/filter.h"
 #include "filter/plan.h"
-#include "measure.h"
+
+namespace pullfocus::cli::bench {
 
 namespace {
-
-using namespace pullfocus;
 
 // A slanted floor that is sharp in its middle, and `cards` of constant depth in front of it. CoC up to 2 * radius px.
 Frame scene(const Window& window, int cards, unsigned seed) {
@@ -48,9 +43,7 @@ Frame scene(const Window& window, int cards, unsigned seed) {
   return frame;
 }
 
-using test::median;
-
-void measure(const Window& window, int cards, float radius, int bitmap_size, int runs) {
+void measure(const Window& window, int cards, float radius, int bitmap_size, int runs, Report& report) {
   FilterOptions options;
   options.threads = 1;
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
@@ -69,37 +62,51 @@ void measure(const Window& window, int cards, float radius, int bitmap_size, int
     filters[m] = make_linear_filter(window, options, kernels);
     plans[m] = make_plan(options, *kernels, frame, coc, nullptr, coc);
   }
-  std::vector<double> ratios[modes];
-  for (int i = 0; i <= runs; ++i) {
-    double times[modes];
-    for (std::size_t m = 0; m < modes; ++m) {
+  std::vector<std::function<double()>> things;
+  for (const auto& filter : filters) {
+    things.push_back([&] {
       const std::clock_t start = std::clock();
-      filters[m]->filter(frame, coc);
-      times[m] = static_cast<double>(std::clock() - start);
-      if (i > 0) ratios[m].push_back(times[m] / times[0]);  // the first round warms up
-    }
+      filter->filter(frame, coc);
+      return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    });
   }
-  const auto bytes = [&](std::size_t m) { return plans[m].state_bytes_per_pixel; };
-  fmt::print("| {} | {:g} | {} | {:.1f} % | {:.2f} | {:.2f} | {:.0f} | {:.0f} | {:.0f} |\n", cards, radius, bitmap_size,
-             100. * static_cast<double>(plans[2].bitmap_pixels) / static_cast<double>(window.pixels()),
-             median(ratios[1]), median(ratios[2]), bytes(0), bytes(1), bytes(2));
-  std::fflush(stdout);
+  const std::vector<Times> times = in_turn(runs, things);
+  std::vector<std::string> cells{fmt::format("{}", cards),
+                                 fmt::format("{:g}", radius),
+                                 fmt::format("{}", bitmap_size),
+                                 fmt::format("{:.1f} %", 100. * static_cast<double>(plans[2].bitmap_pixels) /
+                                                             static_cast<double>(window.pixels())),
+                                 fmt::format("{:.2f}", ratio(times[1], times[0]).median),
+                                 fmt::format("{:.2f}", ratio(times[2], times[0]).median)};
+  for (const Plan& plan : plans) cells.push_back(fmt::format("{:.0f}", plan.state_bytes_per_pixel));
+  report.row(cells);
+}
+
+void print(const Settings& settings, Report& report) {
+  const Window window = settings.quick ? Window{0, 0, 192, 108} : Window{0, 0, 1920, 1080};
+  report.columns({"cards", "R", "L", "pixels with bitmaps", "time, layers / none", "bitmaps / none",
+                  "bytes a pixel, none", "layers", "bitmaps"});
+  for (const int cards : {0, 5, 25}) {
+    for (const float radius : {5.f, 10.f, 16.f}) measure(window, cards, radius, 32, settings.runs_or(15), report);
+  }
+  if (!settings.quick) {
+    measure(window, 25, 16, 16, settings.runs_or(9), report);
+    measure(window, 25, 30, 64, settings.runs_or(9), report);
+  }
+  report.end();
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-  const Window window = quick ? Window{0, 0, 320, 180} : Window{0, 0, 1920, 1080};
-  fmt::print("{}x{}, half RGB, one thread, radii up to R, K = 3 px\n\n", window.width(), window.height());
-  fmt::print(
-      "| cards | R | L | pixels with bitmaps | time, layers / none | bitmaps / none | bytes a pixel, none | layers | "
-      "bitmaps "
-      "|\n|---|---|---|---|---|---|---|---|---|\n");
-  for (const int cards : {0, 5, 25}) {
-    for (const float radius : {5.f, 10.f, 16.f}) measure(window, cards, radius, 32, quick ? 1 : 15);
-  }
-  if (!quick) measure(window, 25, 16, 16, 9);
-  if (!quick) measure(window, 25, 30, 64, 9);
-  return 0;
-}
+const Table kVisibilityTable{
+    "visibility",
+    "Visibility",
+    "Linear frames with layers and with `--visibility bitmap:L`, K = 3 px, against plain ones: cards before a slanted "
+    "floor that goes through focus, 1920x1080, half RGB, radii up to R; medians of ratios of processor time, and bytes "
+    "of "
+    "the filter's state as the plan predicts them.",
+    "1",
+    print,
+    true};
+
+}  // namespace pullfocus::cli::bench

@@ -7,7 +7,7 @@
 #include "camera/thin_lens.h"
 #include "image/frame.h"
 
-namespace pullfocus::test {
+namespace pullfocus::cli::bench {
 
 struct MeasuredShot {
   std::string name, description;
@@ -26,4 +26,4 @@ MeasuredShot light_change(int frames);
 // Nothing moves; F = 8 mm, n = 12, focus goes from the room (150 mm) to the knot (21 mm) (Fearing 1996, experiment 5).
 MeasuredShot reversed_pull(int frames);
 
-}  // namespace pullfocus::test
+}  // namespace pullfocus::cli::bench

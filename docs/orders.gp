@@ -1,4 +1,4 @@
-# Plots what `orders --data FILE` wrote:
+# Plots what `pullfocus bench --table orders --data FILE` wrote (docs/measure.py does):
 #   gnuplot -e "data='FILE'; out='orders.svg'" orders.gp
 set terminal svg size 1000,640 background "white" font "sans-serif,13"
 set output out

@@ -1,10 +1,10 @@
-#include "shots.h"
+#include "bench/measured_shots.h"
 
 #include <cmath>
 
 #include "star_lateral.h"
 
-namespace pullfocus::test {
+namespace pullfocus::cli::bench {
 
 namespace {
 
@@ -84,4 +84,4 @@ MeasuredShot reversed_pull(int frames) {
   return shot;
 }
 
-}  // namespace pullfocus::test
+}  // namespace pullfocus::cli::bench

@@ -1,0 +1,169 @@
+// Times of the filter's inner steps, with Google Benchmark: `micro --benchmark_filter=Edges`. Names say the step, the
+// method and the size of its input; bytes and items are those that the step reads or writes.
+#include <benchmark/benchmark.h>
+
+#include <random>
+
+#include "importance/segment.h"
+#include "importance/select.h"
+#include "resolve/resolve.h"
+#include "scatter/edges.h"
+#include "scatter/sums.h"
+
+namespace pullfocus {
+namespace {
+
+constexpr CocFunction kPlanar{DepthKind::planar, 40, 0.5f};
+constexpr int kRow = 1920;  // pixels
+
+const KernelTable& discs() {
+  static const KernelTable table{KernelOptions{}};
+  return table;
+}
+
+Frame noise(int width, int height) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  Frame frame{ColourImage({0, 0, width, height}, SampleType::half), Plane({0, 0, width, height}, 0), false};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      frame.depth.at(x, y) = 1 + 9 * uniform(random);
+      for (int c = 0; c < 3; ++c) frame.colour.set(x, y, c, uniform(random));
+      frame.colour.set(x, y, 3, 1);
+    }
+  }
+  return frame;
+}
+
+const Pixel<SampleType::half>* row_of(const Frame& frame, int y) {
+  return reinterpret_cast<const Pixel<SampleType::half>*>(frame.colour.pixel(0, y));
+}
+
+// A tile row against what is committed there; `changed`: all of its colours and depths differ.
+void detect_tile_row(benchmark::State& state, bool changed) {
+  const Frame frame = noise(kTileWidth, 2);
+  const DepthToIndex to_index(kPlanar, discs().coc());
+  std::int16_t old_index[kTileWidth], index[kTileWidth];
+  signed_indices(to_index, frame.depth.row(changed ? 1 : 0), kTileWidth, old_index);
+  const SegmentPair<SampleType::half> pair{frame.depth.row(0), row_of(frame, 0), row_of(frame, changed ? 1 : 0),
+                                           old_index, kTileWidth};
+  SegmentDifference difference;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(compare<SampleType::half>(to_index, pair, index, difference));
+    benchmark::DoNotOptimize(difference);
+  }
+  state.SetItemsProcessed(state.iterations() * kTileWidth);
+}
+BENCHMARK_CAPTURE(detect_tile_row, unchanged, false);
+BENCHMARK_CAPTURE(detect_tile_row, changed, true);
+
+void coc_of_tile_row(benchmark::State& state) {
+  const Frame frame = noise(kTileWidth, 1);
+  const DepthToIndex to_index(kPlanar, discs().coc());
+  std::int16_t index[kTileWidth];
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(signed_indices(to_index, frame.depth.row(0), kTileWidth, index));
+    benchmark::DoNotOptimize(index);
+  }
+  state.SetItemsProcessed(state.iterations() * kTileWidth);
+}
+BENCHMARK(coc_of_tile_row);
+
+// A group of neighbouring sources of one radius, all rows of the kernel. Items are edges times sources.
+void edges_of_group(benchmark::State& state) {
+  const int count = static_cast<int>(state.range(0)), radius = static_cast<int>(state.range(1));
+  const Kernel& kernel = discs().kernel(discs().coc().index(2 * static_cast<float>(radius)));
+  Band band;
+  const int height = 2 * kernel.radius_y + 1;
+  band.begin({kRow, height, kernel.radius_x + kWindow, kOpaqueLanes}, 0, height);
+  Emission<kOpaqueLanes> sources[kWindow];
+  for (int i = 0; i < count; ++i) sources[i] = {kRow / 2 + i, 0, {0.25, 0.5, 0.75, 1}, {}};
+  const auto write = group_writers<kOpaqueLanes>(false).writer(count);
+  const BandImage image{0, height, 0, 1};
+  for (auto _ : state) {
+    write(kernel, sources, (1u << count) - 1, kRow / 2, kernel.radius_y, image, band);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * kernel.edge_count() * count);
+}
+BENCHMARK(edges_of_group)->ArgsProduct({{1, 2, 4, 8}, {2, 5, 10, 20, 40, 80}})->ArgNames({"sources", "radius"});
+
+void prefix_sum_of_row(benchmark::State& state) {
+  const int lanes = static_cast<int>(state.range(0));
+  std::vector<Accumulator, CacheAligned<Accumulator>> values(static_cast<std::size_t>(kRow * lanes), 3);
+  for (auto _ : state) {
+    prefix_sum(values.data(), kRow, lanes);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * kRow);
+}
+BENCHMARK(prefix_sum_of_row)->Arg(kOpaqueLanes)->Arg(kAlphaLanes)->ArgName("lanes");
+
+// A row that so many layers reach throughout, each with a share of the weight.
+void resolve_row(benchmark::State& state) {
+  const int layers = static_cast<int>(state.range(0));
+  const Window window{0, 0, kRow, 1};
+  const Frame frame = noise(kRow, 1);
+  ColourImage out(window, SampleType::half);
+  std::mt19937_64 random(2);
+  std::vector<std::vector<Accumulator>> sums(static_cast<std::size_t>(layers));
+  const ColumnSpan whole[] = {{0, kRow}};
+  std::vector<LayerRow> rows;
+  for (int layer = 0; layer < layers; ++layer) {
+    auto& values = sums[static_cast<std::size_t>(layer)];
+    for (int i = 0; i < kRow * kOpaqueLanes; ++i) {
+      const Accumulator weight = static_cast<Accumulator>(kWeightUnit / layers);
+      values.push_back(i % kOpaqueLanes == kWeightLane ? weight : random() % weight);
+    }
+    rows.push_back({layer, values.data(), whole});
+  }
+  for (auto _ : state) {
+    resolve_rows(rows, kOpaqueLanes, 0, frame.colour, out);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * kRow);
+}
+BENCHMARK(resolve_row)->Arg(1)->Arg(3)->ArgName("layers");
+
+// 15 % of a million changed pixels, on all threads.
+void select_of_a_million(benchmark::State& state, Order order) {
+  constexpr int side = 1000;
+  Frame frame = noise(side, side);
+  const Sanitiser sanitiser(65504);
+  SourceState committed;
+  std::vector<TileWork> all;
+  bool opaque = true;
+  committed.reset(frame.window(), SampleType::half);
+  commit_all(frame, kPlanar, discs().coc(), sanitiser, committed, all, opaque);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) frame.colour.set(x, y, 0, 1 + frame.colour.get(x, y, 0));
+  }
+  std::vector<std::int16_t> index(committed.index.size());
+  const Changes changes =
+      find_changes(frame, kPlanar, discs().coc(), sanitiser, committed, ChangeThresholds{}, index, nullptr);
+  const Pending pending{frame, committed, index, discs(), sanitiser, committed.colour, 1};
+  ImportanceOptions options;
+  options.order = order;
+  WaitingTimes waiting;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(select_pixels(changes, pending, options, waiting, {changes.pixels * 15 / 100, 0}));
+  }
+  state.SetItemsProcessed(state.iterations() * changes.pixels);
+}
+BENCHMARK_CAPTURE(select_of_a_million, gain, Order::gain)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(select_of_a_million, fearing, Order::fearing)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void kernel_table(benchmark::State& state, const char* shape) {
+  KernelOptions options;
+  options.shape = KernelShape::parse(shape);
+  options.max_coc_px = static_cast<double>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(KernelTable(options));
+}
+BENCHMARK_CAPTURE(kernel_table, disc, "disc")->Arg(50)->Arg(400)->ArgName("max_coc")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(kernel_table, polygon, "polygon:6")->Arg(50)->ArgName("max_coc")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(kernel_table, gaussian, "gaussian")->Arg(50)->ArgName("max_coc")->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace pullfocus
+
+BENCHMARK_MAIN();
