@@ -36,7 +36,7 @@ constexpr std::size_t round_up(std::size_t value, std::size_t step) { return (va
 }  // namespace
 
 template <typename Real>
-NaiveFilter<Real>::NaiveFilter(const KernelTable& kernels, Layout layout) : kernels_(kernels), layout_(layout) {
+NaiveFilter<Real>::NaiveFilter(const KernelTable& kernels, Way way) : kernels_(kernels), way_(way) {
   for (int i = 0; i < kernels.coc().size(); ++i) tables_.push_back(table_of<Real>(kernels.kernel(i)));
 }
 
@@ -76,7 +76,7 @@ void NaiveFilter<Real>::read(const Frame& frame, const CocFunction& coc) {
 
 template <typename Real>
 void NaiveFilter<Real>::divide(const NaiveBand<Real>& band, int width) {
-  const std::size_t across = layout_ == Layout::planar ? 1 : 4, deep = layout_ == Layout::planar ? band.plane : 1;
+  const std::size_t across = way_ == Way::by_row ? 1 : 4, deep = way_ == Way::by_row ? band.plane : 1;
   for (int y = band.y0; y < band.y1; ++y) {
     const Real* in =
         band.sums + static_cast<std::size_t>(y - band.y0) * band.row + static_cast<std::size_t>(band.pad) * across;
@@ -108,7 +108,7 @@ const std::vector<Real>& NaiveFilter<Real>::filter(const Frame& frame, const Coc
     std::fill(band.sums, band.sums + static_cast<std::size_t>(y1 - y0) * row, Real{0});
     for (int y = std::max(0, y0 - reach_y_); y < std::min(height, y1 + reach_y_); ++y) {
       const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-      naive_scatter_row(layout_, tables_, &index_[at], &colour_[at * 4], width, y, band);
+      naive_scatter_row(way_, tables_, &index_[at], &colour_[at * 4], width, y, band);
     }
     divide(band, width);
   });

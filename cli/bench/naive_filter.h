@@ -17,7 +17,7 @@ template <typename Real>
 class NaiveFilter {
  public:
   // `kernels` must outlive this.
-  NaiveFilter(const KernelTable& kernels, Layout layout);
+  NaiveFilter(const KernelTable& kernels, Way way);
 
   // RGBA over the frame's window, row by row, A = 1; of a frame without NaN or infinities. Destination bands in
   // parallel, in the calling task arena.
@@ -28,7 +28,7 @@ class NaiveFilter {
   void divide(const NaiveBand<Real>& band, int width);
 
   const KernelTable& kernels_;
-  const Layout layout_;
+  const Way way_;
   std::vector<NaiveKernel<Real>> tables_;  // by |index|
   std::vector<Real> colour_, result_;      // 4 values a pixel
   Aligned<Real> sums_;

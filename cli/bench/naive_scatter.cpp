@@ -55,48 +55,69 @@ HWY_INLINE void AddPlanar(const Real* HWY_RESTRICT colour, const Real* HWY_RESTR
   }
 }
 
-template <typename Real, Layout layout>
-HWY_INLINE void ScatterRow(const std::vector<NaiveKernel<Real>>& kernels, const std::int16_t* index,
-                           const Real* colours, int width, int y, const NaiveBand<Real>& band) {
-  constexpr int lanes = static_cast<int>(hn::MaxLanes(hn::ScalableTag<Real>()));
-  constexpr int pixels = layout == Layout::planar ? lanes : std::max(1, lanes / 4);  // a vector
+template <typename Real>
+HWY_INLINE void BySource(const std::vector<NaiveKernel<Real>>& kernels, const std::int16_t* index, const Real* colours,
+                         int width, int y, const NaiveBand<Real>& band) {
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(hn::ScalableTag<Real>())), repeated = std::max(4, lanes);
+  constexpr int pixels = std::max(1, lanes / 4);  // a vector
   for (int x = 0; x < width; ++x) {
     const NaiveKernel<Real>& kernel = kernels[static_cast<std::size_t>(std::abs(index[x]))];
-    HWY_ALIGN Real colour[std::max(4, lanes)];
-    for (int i = 0; i < std::max(4, lanes); ++i) colour[i] = colours[x * 4 + i % 4];
+    HWY_ALIGN Real colour[repeated];
+    for (int i = 0; i < repeated; ++i) colour[i] = colours[x * 4 + i % 4];
     const int first = std::max(-kernel.radius_y, band.y0 - y), last = std::min(kernel.radius_y, band.y1 - 1 - y);
     for (int dy = first; dy <= last; ++dy) {
       const auto& row = kernel.rows[static_cast<std::size_t>(dy + kernel.radius_y)];
       const int column = band.pad + x + row.dx, lead = column & (pixels - 1);
-      const Real* weights = kernel.weights.data() + row.first - lead;
       Real* sums = band.sums + static_cast<std::size_t>(y + dy - band.y0) * band.row;
-      if constexpr (layout == Layout::planar) {
-        AddPlanar(colour, weights, row.count + lead, band.plane, sums + (column - lead));
-      } else {
-        AddInterleaved(colour, weights, row.count + lead, sums + (column - lead) * 4);
+      AddInterleaved(colour, kernel.weights.data() + row.first - lead, row.count + lead, sums + (column - lead) * 4);
+    }
+  }
+}
+
+template <typename Real>
+HWY_INLINE void ByRow(const std::vector<NaiveKernel<Real>>& kernels, const std::int16_t* index, const Real* colours,
+                      int width, int y, const NaiveBand<Real>& band) {
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(hn::ScalableTag<Real>()));
+  constexpr int group = 32;  // sources
+  const NaiveKernel<Real>* kernel[group];
+  for (int x0 = 0; x0 < width; x0 += group) {
+    const int n = std::min(group, width - x0);
+    int reach = 0;
+    for (int i = 0; i < n; ++i) {
+      kernel[i] = &kernels[static_cast<std::size_t>(std::abs(index[x0 + i]))];
+      reach = std::max(reach, kernel[i]->radius_y);
+    }
+    for (int to = std::max(band.y0, y - reach); to < std::min(band.y1, y + reach + 1); ++to) {
+      Real* sums = band.sums + static_cast<std::size_t>(to - band.y0) * band.row;
+      for (int i = 0; i < n; ++i) {
+        if (std::abs(to - y) > kernel[i]->radius_y) continue;
+        const auto& row = kernel[i]->rows[static_cast<std::size_t>(to - y + kernel[i]->radius_y)];
+        const int column = band.pad + x0 + i + row.dx, lead = column & (lanes - 1);
+        AddPlanar(colours + (x0 + i) * 4, kernel[i]->weights.data() + row.first - lead, row.count + lead, band.plane,
+                  sums + (column - lead));
       }
     }
   }
 }
 
 template <typename Real>
-HWY_INLINE void Row(Layout layout, const std::vector<NaiveKernel<Real>>& kernels, const std::int16_t* index,
+HWY_INLINE void Row(Way way, const std::vector<NaiveKernel<Real>>& kernels, const std::int16_t* index,
                     const Real* colours, int width, int y, const NaiveBand<Real>& band) {
-  if (layout == Layout::planar) {
-    ScatterRow<Real, Layout::planar>(kernels, index, colours, width, y, band);
+  if (way == Way::by_row) {
+    ByRow(kernels, index, colours, width, y, band);
   } else {
-    ScatterRow<Real, Layout::interleaved>(kernels, index, colours, width, y, band);
+    BySource(kernels, index, colours, width, y, band);
   }
 }
 
-void RowFloat(Layout layout, const std::vector<NaiveKernel<float>>& kernels, const std::int16_t* index,
-              const float* colours, int width, int y, const NaiveBand<float>& band) {
-  Row(layout, kernels, index, colours, width, y, band);
+void RowFloat(Way way, const std::vector<NaiveKernel<float>>& kernels, const std::int16_t* index, const float* colours,
+              int width, int y, const NaiveBand<float>& band) {
+  Row(way, kernels, index, colours, width, y, band);
 }
 
-void RowDouble(Layout layout, const std::vector<NaiveKernel<double>>& kernels, const std::int16_t* index,
+void RowDouble(Way way, const std::vector<NaiveKernel<double>>& kernels, const std::int16_t* index,
                const double* colours, int width, int y, const NaiveBand<double>& band) {
-  Row(layout, kernels, index, colours, width, y, band);
+  Row(way, kernels, index, colours, width, y, band);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -111,15 +132,15 @@ HWY_EXPORT(RowFloat);
 HWY_EXPORT(RowDouble);
 
 template <>
-void naive_scatter_row(Layout layout, const std::vector<NaiveKernel<float>>& kernels, const std::int16_t* index,
+void naive_scatter_row(Way way, const std::vector<NaiveKernel<float>>& kernels, const std::int16_t* index,
                        const float* colours, int width, int y, const NaiveBand<float>& band) {
-  HWY_DYNAMIC_DISPATCH(RowFloat)(layout, kernels, index, colours, width, y, band);
+  HWY_DYNAMIC_DISPATCH(RowFloat)(way, kernels, index, colours, width, y, band);
 }
 
 template <>
-void naive_scatter_row(Layout layout, const std::vector<NaiveKernel<double>>& kernels, const std::int16_t* index,
+void naive_scatter_row(Way way, const std::vector<NaiveKernel<double>>& kernels, const std::int16_t* index,
                        const double* colours, int width, int y, const NaiveBand<double>& band) {
-  HWY_DYNAMIC_DISPATCH(RowDouble)(layout, kernels, index, colours, width, y, band);
+  HWY_DYNAMIC_DISPATCH(RowDouble)(way, kernels, index, colours, width, y, band);
 }
 
 }  // namespace pullfocus::cli::bench

@@ -10,10 +10,13 @@
 
 namespace pullfocus::cli::bench {
 
-// How sums lie in memory. Either way vectors of sums are aligned, and those of weights are shifted to fit.
-enum class Layout {
-  interleaved,  // R, G, B, weight of a pixel, several pixels a vector; each weight goes to four lanes
-  planar        // a plane a channel, rows of the four one after the other; weights as they lie
+// In which order contributions are added, and how sums lie in memory. Either way vectors of sums are aligned, and those
+// of weights are shifted to fit.
+enum class Way {
+  by_source,  // one source after the other; R, G, B, weight of a pixel, several pixels a vector, each weight in four
+              // lanes
+  by_row  // a few sources at a time, row by row of what they reach, which then stays in the innermost cache; a plane
+          // a channel, rows of the four one after the other, weights as they lie
 };
 
 template <typename T>
@@ -38,14 +41,14 @@ template <typename Real>
 struct NaiveBand {
   Real* sums;         // row y0, at the first column of the pad on the left; on a cache line
   std::size_t row;    // values from row to row, a multiple of a cache line
-  std::size_t plane;  // planar: values from channel to channel, likewise
+  std::size_t plane;  // by_row: values from channel to channel, likewise
   int pad;            // columns left of column 0, a multiple of kZeros
   int y0, y1;
 };
 
 // Adds the sources of row y, `width` pixels of R, G, B, 1 whose kernels are kernels[|index|], to the band.
 template <typename Real>
-void naive_scatter_row(Layout layout, const std::vector<NaiveKernel<Real>>& kernels, const std::int16_t* index,
+void naive_scatter_row(Way way, const std::vector<NaiveKernel<Real>>& kernels, const std::int16_t* index,
                        const Real* colours, int width, int y, const NaiveBand<Real>& band);
 
 }  // namespace pullfocus::cli::bench

@@ -64,19 +64,19 @@ void agrees_with_linear(double tolerance) {
       const CocFunction coc{DepthKind::coc, 1, 0};
       const auto linear = make_linear_filter(frame.window(), options, kernels);
       linear->filter(frame, coc);
-      for (const Layout layout : {Layout::interleaved, Layout::planar}) {
-        NaiveFilter<Real> naive(*kernels, layout);
+      for (const Way way : {Way::by_source, Way::by_row}) {
+        NaiveFilter<Real> naive(*kernels, way);
         tbb::task_arena arena(2);
         std::vector<Real> result;
         for (int frames = 0; frames < 2; ++frames) arena.execute([&] { result = naive.filter(frame, coc); });
         EXPECT_LT(largest_difference(result, linear->result(), border), tolerance)
-            << kernel << ", CoC up to " << largest_coc << (layout == Layout::planar ? ", planar" : ", interleaved");
+            << kernel << ", CoC up to " << largest_coc << (way == Way::by_row ? ", by row" : ", by source");
       }
     }
   }
 }
 
-TEST(NaiveFilter, AgreesWithLinearAwayFromTheBorderOnEveryTargetAndInEveryLayout) {
+TEST(NaiveFilter, AgreesWithLinearAwayFromTheBorderOnEveryTargetAndInBothWays) {
   for (const std::int64_t target : test::simd_targets()) {
     const test::OnTarget on(target);
     agrees_with_linear<double>(1e-7);
