@@ -108,7 +108,7 @@ void print(const bench::Table& table, const Arguments& a, const bench::Settings&
   std::string line =
       fmt::format("`{}`; threads: {}", command(a, std::string(table.name)),
                   table.threads_are_fixed ? std::string(table.threads) : threads_in_words(settings, table.threads));
-  if (a.quick) line += "; small and once, to see that it runs: the sizes above do not hold";
+  if (a.quick) line += "; small and once, to see that it runs: sizes and threads above do not hold";
   report.paragraph(line + ".");
   use_threads(std::max(settings.processors, settings.threads_or(1)));
   table.print(settings, report);

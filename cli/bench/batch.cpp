@@ -119,8 +119,12 @@ Cost run(const BatchShot& shot, const std::string& in, const std::string& out, i
   use_threads(threads);
   const double before = processor_ms();
   const Stopwatch watch;
-  if (FilterRun(input, camera, filter, arguments).run() != kDone) {
-    throw Error(ErrorCode::content, "a frame of the benchmark failed");
+  try {
+    if (FilterRun(input, camera, filter, arguments).run() != kDone)
+      throw Error(ErrorCode::content, "a frame of the benchmark failed");
+  } catch (const Error&) {
+    if (interrupted()) throw Interrupted{};  // a run that was cut short is no row
+    throw;
   }
   return {watch.ms(), processor_ms() - before};
 }
@@ -157,9 +161,8 @@ void print(const Settings& settings, Report& report) {
 const Table kBatchTable{
     "batch", "Batch",
     "`pullfocus filter` over 12 frames of `star-lateral`, 1920x1080, half RGB + float Z, ZIP, against the same "
-    "pipeline "
-    "without the filter, which only reads and writes the frames; median (range) of ratios of elapsed and of processor "
-    "time.",
+    "pipeline without the filter, which only reads and writes the frames; median (range) of ratios of elapsed and of "
+    "processor time.",
     "one a processor", print};
 
 }  // namespace pullfocus::cli::bench

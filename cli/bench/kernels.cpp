@@ -74,10 +74,10 @@ void print(const Settings& settings, Report& report) {
 
 }  // namespace
 
-const Table kKernelsTable{"kernels", "Kernels",
-                          "Run edges a source, counted, and medians of the time of linear frames of 960x540 in which "
-                          "every pixel has a radius "
-                          "of 14/16 R to R, in turn with the disc's; half RGB, no visibility.",
-                          "1", print};
+const Table kKernelsTable{
+    "kernels", "Kernels",
+    "Run edges a source, counted, and medians of the time of linear frames of 960x540 in which every pixel has a "
+    "radius of 14/16 R to R, in turn with the disc's; half RGB, no visibility.",
+    "1", print};
 
 }  // namespace pullfocus::cli::bench

@@ -57,8 +57,8 @@ const Table kNaiveTable{
     "naive", "Full frames against the naive scatter",
     "A linear frame of 1920x1080 (planes, a slanted floor and 6 % of noisy pixels, radii up to R, half RGB, no "
     "visibility) against the O(R²) scatter of the same kernels from tables of weights, SIMD as wide as the processor "
-    "has it with fused multiply-add, in float and in double, which is as accurate as the filter: the faster one of two "
-    "ways, source by source or row by row for a few sources at a time; median (range).",
+    "has it with fused multiply-add, in float and in double, which is as accurate as the filter: the faster one of "
+    "two ways, source by source or row by row for a few sources at a time; median (range).",
     "1", print};
 
 }  // namespace pullfocus::cli::bench

@@ -146,9 +146,9 @@ void print(const Settings& settings, Report& report) {
 const Table kOrdersTable{
     "orders",
     "What comes first under a partial budget",
-    "RMSE of the incremental filter's result against the linear filter's under partial budgets: 256x256, 100 frames of "
-    "the `star-lateral` scene, kernels up to 64 px, linear RGB, mean over frames 2 to 100, no visibility; counts and "
-    "errors only, repeatable to the last digit.",
+    "RMSE of the incremental filter's result against the linear filter's under partial budgets: 256x256, 100 frames "
+    "of the `star-lateral` scene, kernels up to 64 px, linear RGB, mean over frames 2 to 100, no visibility; counts "
+    "and errors only, repeatable to the last digit.",
     "one a processor, without effect",
     print,
     true};

@@ -86,11 +86,9 @@ void print(const Settings& settings, Report& report) {
 const Table kPaperTable{
     "paper", "The paper's tables 1 and 2",
     "Fearing's experiments at 256x256, 100 frames from `pullfocus render`'s shots `fearing-1` to `fearing-5` in "
-    "memory, "
-    "full budget: time a frame, mean over frames 2-100 (table 2), and speed-up without and with the first frame (table "
-    "1), linear and incremental frame by frame in turn; gaussians in steps of half a pixel as in the paper, discs in "
-    "the "
-    "default steps; median (range) of whole runs.",
+    "memory, full budget: time a frame, mean over frames 2-100 (table 2), and speed-up without and with the first "
+    "frame (table 1), linear and incremental frame by frame in turn; gaussians in steps of half a pixel as in the "
+    "paper, discs in the default steps; median (range) of whole runs.",
     "1", print};
 
 }  // namespace pullfocus::cli::bench

@@ -82,10 +82,9 @@ void print(const Settings& settings, Report& report) {
 const Table kSizesTable{
     "sizes", "Sizes",
     "Median time a pixel of a linear frame, of an unchanged one and of one in which a patch of 2 % of the pixels "
-    "changes "
-    "its colour, and bytes of the incremental filter's state as allocated after two frames (its result left aside, "
-    "buffers of its threads included) and as the plan predicts them: the scene of `naive`, radii up to 10, half RGB, "
-    "default settings.",
+    "changes its colour, and bytes of the incremental filter's state as allocated after two frames (its result left "
+    "aside, buffers of its threads included) and as the plan predicts them: the scene of `naive`, radii up to 10, "
+    "half RGB, default settings.",
     "1", print};
 
 }  // namespace pullfocus::cli::bench

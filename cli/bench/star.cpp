@@ -42,9 +42,8 @@ void print(const Settings& settings, Report& report) {
 const Table kStarTable{
     "star", "The star, by threads",
     "`star-lateral` at 256x256 (the paper's experiment 1: F = 8 mm, n = 3.5, focused at 40 mm, `--lens paper`), "
-    "kernels "
-    "up to 64 px: filter time a frame, mean over frames 2-100, linear and incremental frame by frame in turn; median "
-    "(range) of whole runs.",
+    "kernels up to 64 px: filter time a frame, mean over frames 2-100, linear and incremental frame by frame in turn; "
+    "median (range) of whole runs.",
     "1, half of the processors and all", print};
 
 }  // namespace pullfocus::cli::bench

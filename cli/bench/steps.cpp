@@ -111,8 +111,7 @@ const Table kStepsTable{
     "steps", "Steps of the CoC",
     "`star-lateral` at 1920x1080 with nothing moving, f/12, CoC up to 79 px, focus from 40 to 48 mm over 100 frames, "
     "of these frames 40-60: error against kernels in steps of 1/8 px throughout; work of an incremental frame, "
-    "counted, "
-    "and median of its time, against a linear one's; no visibility.",
+    "counted, and median of its time, against a linear one's; no visibility.",
     "1", print};
 
 }  // namespace pullfocus::cli::bench

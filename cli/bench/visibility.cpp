@@ -102,9 +102,8 @@ const Table kVisibilityTable{
     "visibility",
     "Visibility",
     "Linear frames with layers and with `--visibility bitmap:L`, K = 3 px, against plain ones: cards before a slanted "
-    "floor that goes through focus, 1920x1080, half RGB, radii up to R; medians of ratios of processor time, and bytes "
-    "of "
-    "the filter's state as the plan predicts them.",
+    "floor that goes through focus, 1920x1080, half RGB, radii up to R; medians of ratios of processor time, and "
+    "bytes of the filter's state as the plan predicts them.",
     "1",
     print,
     true};
