@@ -40,8 +40,8 @@ def main():
     out = pathlib.Path(a.out)
     out.mkdir(parents=True, exist_ok=True)
     sections, machines = {}, set()
-    texts = {name: (DOCS / name).read_text() for name in ("benchmarks.md", "orders.md")}
-    known = {match[2] for text in texts.values() for match in BLOCK.finditer(text)} - {"machine"}
+    documents = ("benchmarks.md", "orders.md")
+    known = {match[2] for name in documents for match in BLOCK.finditer((DOCS / name).read_text())} - {"machine"}
     if wanted and not wanted <= known:
         sys.exit(f"measure.py: no table {', '.join(sorted(wanted - known))} in the documents: use {', '.join(sorted(known))}")
     with tempfile.TemporaryDirectory() as folder:
@@ -54,7 +54,8 @@ def main():
             subprocess.run(["gnuplot", "-e", f"data='{plot_data}'; out='{out / 'orders.svg'}'", str(DOCS / "orders.gp")],
                            check=True)
     sections["machine"] = "Measured on " + "; ".join(sorted(machines)) + ".\n"
-    for name, text in texts.items():
+    for name in documents:
+        text = (DOCS / name).read_text()  # only now: it may have been edited meanwhile
         (out / name).write_text(BLOCK.sub(lambda m: m[1] + sections[m[2]] + m[3] if m[2] in sections else m[0], text))
 
 
