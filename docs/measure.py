@@ -4,7 +4,7 @@
     docs/measure.py [--tool build/cli/pullfocus] [--table NAME,...] [--out FOLDER]
 
 A table stands between the lines "<!-- bench NAME -->" and "<!-- end -->"; the text around it is left alone. Measure
-on a quiet machine: the whole takes about half an hour."""
+on a quiet machine: the whole takes about twenty minutes."""
 import argparse
 import pathlib
 import re
