@@ -11,6 +11,10 @@
 #include "bench/timing.h"
 #include "program.h"
 
+namespace pullfocus::cli::bench {
+void PrintTo(const Table& table, std::ostream* out) { *out << table.name; }
+}  // namespace pullfocus::cli::bench
+
 namespace pullfocus::test {
 namespace {
 
