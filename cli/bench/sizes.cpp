@@ -47,6 +47,7 @@ void measure(int side, int threads, int runs, Report& report) {
   darken(changed, 0.02, Pattern::patch);
   FilterOptions options;
   options.threads = threads;
+  options.visibility.kind = VisibilityOptions::Kind::none;
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
   const double before = allocated();
   const auto incremental = make_incremental_filter(frame.window(), options, kernels);
@@ -84,7 +85,7 @@ const Table kSizesTable{
     "Median time a pixel of a linear frame, of an unchanged one and of one in which a patch of 2 % of the pixels "
     "changes its colour, and bytes of the incremental filter's state as allocated after two frames (its result left "
     "aside, buffers of its threads included) and as the plan predicts them: the scene of `naive`, radii up to 10, "
-    "half RGB, default settings.",
+    "half RGB, without visibility.",
     "1", print};
 
 }  // namespace pullfocus::cli::bench

@@ -2,6 +2,8 @@
 // method and the size of its input; bytes and items are those that the step reads or writes.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <iterator>
 #include <random>
 
 #include "importance/segment.h"
@@ -69,24 +71,42 @@ void coc_of_tile_row(benchmark::State& state) {
 }
 BENCHMARK(coc_of_tile_row);
 
-// A group of neighbouring sources of one radius, all rows of the kernel. Items are edges times sources.
-void edges_of_group(benchmark::State& state) {
+// Neighbouring sources of one radius, all rows of the kernel; moved: from the next smaller index of the table. Items
+// are edges times sources.
+void edges_of_sources(benchmark::State& state, RowKind kind) {
   const int count = static_cast<int>(state.range(0)), radius = static_cast<int>(state.range(1));
-  const Kernel& kernel = discs().kernel(discs().coc().index(2 * static_cast<float>(radius)));
+  const int index = discs().coc().index(2 * static_cast<float>(radius));
+  const Kernel& kernel = discs().kernel(index);
   Band band;
   const int height = 2 * kernel.radius_y + 1;
   band.begin({kRow, height, kernel.radius_x + kWindow, kOpaqueLanes}, 0, height);
-  Emission<kOpaqueLanes> sources[kWindow];
-  for (int i = 0; i < count; ++i) sources[i] = {kRow / 2 + i, 0, {0.25, 0.5, 0.75, 1}, {}};
-  const auto write = group_writers<kOpaqueLanes>(false).writer(count);
+  SourceRow<kOpaqueLanes> sources;
+  sources.x = kRow / 2;
+  sources.mask = first_pixels(count);
+  std::fill(std::begin(sources.index), std::end(sources.index), static_cast<std::int16_t>(index));
+  std::fill(std::begin(sources.old), std::end(sources.old), static_cast<std::int16_t>(index - 1));
+  for (int i = 0; i < count; ++i) {
+    for (int lane = 0; lane < kOpaqueLanes; ++lane) {
+      sources.plus[i * kOpaqueLanes + lane] = 0.25 * (lane + 1);
+      sources.minus[i * kOpaqueLanes + lane] = 0.125 * (lane + 1);
+    }
+  }
+  const WriteRow<kOpaqueLanes> write = row_writer<kOpaqueLanes>(kind);
   const BandImage image{0, height, 0, 1};
   for (auto _ : state) {
-    write(kernel, sources, (1u << count) - 1, kRow / 2, kernel.radius_y, image, band);
+    write(discs(), sources, kernel.radius_y, image, band);
     benchmark::ClobberMemory();
   }
-  state.SetItemsProcessed(state.iterations() * kernel.edge_count() * count);
+  const int edges = kernel.edge_count() + (kind == RowKind::moved ? discs().edge_count(index - 1) : 0);
+  state.SetItemsProcessed(state.iterations() * edges * count);
 }
-BENCHMARK(edges_of_group)->ArgsProduct({{1, 2, 4, 8}, {2, 5, 10, 20, 40, 80}})->ArgNames({"sources", "radius"});
+BENCHMARK_CAPTURE(edges_of_sources, plain, RowKind::plain)
+    ->ArgsProduct({{1, 2, 4, 8}, {2, 5, 10, 20, 40, 80}})
+    ->ArgNames({"sources", "radius"});
+BENCHMARK_CAPTURE(edges_of_sources, recoloured, RowKind::recoloured)->Args({8, 10})->ArgNames({"sources", "radius"});
+BENCHMARK_CAPTURE(edges_of_sources, moved, RowKind::moved)
+    ->ArgsProduct({{1, 8}, {5, 10, 20, 40, 80}})
+    ->ArgNames({"sources", "radius"});
 
 void prefix_sum_of_row(benchmark::State& state) {
   const int lanes = static_cast<int>(state.range(0));
