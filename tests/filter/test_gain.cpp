@@ -1,0 +1,137 @@
+// Order::gain against its formula, pixel by pixel and in double precision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "importance/order.h"
+#include "plain_frames.h"
+
+namespace pullfocus {
+namespace {
+
+struct Change {
+  Frame frame;
+  SourceState state;
+  std::vector<std::int16_t> index;
+  ColourImage shown;
+};
+
+// Any colours and indices before and after; every third pixel keeps its index, some were never committed or held out.
+Change random_change(const Window& window, SampleType type, int indices, std::mt19937& random) {
+  std::uniform_real_distribution<float> exponent(-8, 3);
+  const auto noise = [&](ColourImage& image) {
+    image.reset(window, type);
+    test::for_each_in(window, [&](int x, int y) {
+      for (int c = 0; c < 4; ++c) image.set(x, y, c, std::exp2(exponent(random)));
+    });
+  };
+  const auto any_index = [&] {
+    return static_cast<std::int16_t>(static_cast<int>(random() % (2u * indices - 1)) - indices + 1);
+  };
+  Change change;
+  noise(change.frame.colour);
+  change.frame.depth.reset(window, 1);
+  change.state.reset(window, type);
+  noise(change.state.colour);
+  noise(change.shown);
+  for (std::int16_t& index : change.state.index) {
+    index = any_index();
+    change.index.push_back(random() % 3 ? any_index() : index);
+    if (random() % 20 == 0) index = kHeldOut;
+    if (random() % 20 == 0) index = kNeverCommitted;
+  }
+  for (int y = window.y0; y < window.y1; y += 2) {  // some keep their colour
+    for (int x = window.x0; x < window.x1; x += 3) {
+      for (int c = 0; c < 4; ++c) change.frame.colour.set(x, y, c, change.state.colour.get(x, y, c));
+    }
+  }
+  return change;
+}
+
+double plain_gain(const Pending& pending, int x, int y, std::size_t at) {
+  const auto area = [&](std::int16_t index) { return pending.kernels.area(is_source(index) ? index : 0); };
+  const double now = area(pending.index[at]), then = area(pending.state.index[at]);
+  double change = 0, aa = 0, bb = 0, ab = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double is = static_cast<double>(pending.frame.colour.get(x, y, c));
+    const double was = static_cast<double>(pending.state.colour.get(x, y, c));
+    const double result = static_cast<double>(pending.shown.get(x, y, c));
+    change += (is - was) * (is - was);
+    aa += (is - result) * (is - result);
+    bb += (was - result) * (was - result);
+    ab += (is - result) * (was - result);
+  }
+  const double of_colour = change / std::sqrt(std::sqrt(std::min(now, then)));
+  if (pending.index[at] == pending.state.index[at]) return of_colour;
+  const double of_kernel = aa / now + bb / then - 2 * ab / std::max(now, then);
+  if (change > 0) return std::max(of_kernel, of_colour);
+  const std::uint32_t spread = scrambled(static_cast<std::uint32_t>(at) + 0x9e3779b9u * pending.round);
+  return of_kernel * std::ldexp(static_cast<double>(spread >> 8), -24);
+}
+
+TEST(Gain, IsWhatItsFormulaSaysForEveryChangedPixel) {
+  std::mt19937 random(5);
+  KernelOptions options;
+  options.max_coc_px = 30;
+  const KernelTable kernels(options);
+  const Sanitiser sanitiser(65504);
+  for (const SampleType type : {SampleType::half, SampleType::float32}) {
+    const Window window{-3, 2, 140, 41};
+    const Change change = random_change(window, type, kernels.coc().size(), random);
+    const Pending pending{change.frame, change.state, change.index, kernels, sanitiser, change.shown, 7};
+    const TileGrid grid{window.width(), window.height()};
+    std::vector<TileWork> tiles;
+    for (int tile = 0; tile < grid.count(); ++tile) {
+      TileWork work{tile, 0, {}};
+      for (int row = 0; row < grid.tile_height(tile); ++row) {
+        work.mask.rows[row] = (std::uint64_t{random()} << 32 | random()) & first_pixels(grid.tile_width(tile));
+      }
+      tiles.push_back(work);
+    }
+    const auto gains = priorities(tiles, pending, ImportanceOptions{});
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+      std::size_t i = 0;
+      for (int row = 0; row < kTileHeight; ++row) {
+        for_each_pixel(tiles[t].mask.rows[row], [&](int p) {
+          const int x = grid.x(tiles[t].tile) + p, y = grid.y(tiles[t].tile) + row;
+          const auto at = static_cast<std::size_t>(y * grid.width + x);
+          const double is = static_cast<double>(gains[t].at(i++));
+          if (change.state.index[at] == kNeverCommitted) {
+            EXPECT_EQ(is, static_cast<double>(kFirstOfAll));
+            return;
+          }
+          const double expected = plain_gain(pending, window.x0 + x, window.y0 + y, at);
+          // What cancels in single precision is up to the squares of the colours, here 64.
+          ASSERT_NEAR(is, std::max(expected, 0.), 1e-5 * std::fabs(expected) + 2e-5) << x << ", " << y;
+        });
+      }
+      EXPECT_EQ(i, gains[t].size());
+    }
+  }
+}
+
+TEST(Gain, OfHugeColoursIsANumber) {
+  KernelOptions options;
+  options.max_coc_px = 30;
+  const KernelTable kernels(options);
+  const Sanitiser sanitiser(65504);
+  const Window window{0, 0, 64, 1};
+  const Frame frame = test::flat_frame(window, SampleType::float32, {65504, -65504, 65504, 1}, 1);
+  SourceState state;
+  state.reset(window, SampleType::float32);
+  std::fill(state.index.begin(), state.index.end(), std::int16_t{3});
+  const std::vector<std::int16_t> index(64, 5);
+  ColourImage shown(window, SampleType::float32);
+  for (int x = 0; x < 64; ++x) shown.set(x, 0, 0, x % 2 ? 3e38f : -3e38f);
+  const std::vector<TileWork> tiles{{0, 5, {{~std::uint64_t{0}}}}};
+  for (const float gain :
+       priorities(tiles, {frame, state, index, kernels, sanitiser, shown, 1}, ImportanceOptions{})[0]) {
+    EXPECT_TRUE(std::isfinite(gain));
+    EXPECT_GE(gain, 0);
+  }
+}
+
+}  // namespace
+}  // namespace pullfocus
