@@ -126,8 +126,8 @@ TEST(Gain, OfHugeColoursIsANumber) {
   ColourImage shown(window, SampleType::float32);
   for (int x = 0; x < 64; ++x) shown.set(x, 0, 0, x % 2 ? 3e38f : -3e38f);
   const std::vector<TileWork> tiles{{0, 5, {{~std::uint64_t{0}}}}};
-  for (const float gain :
-       priorities(tiles, {frame, state, index, kernels, sanitiser, shown, 1}, ImportanceOptions{})[0]) {
+  const auto gains = priorities(tiles, {frame, state, index, kernels, sanitiser, shown, 1}, ImportanceOptions{});
+  for (const float gain : gains[0]) {
     EXPECT_TRUE(std::isfinite(gain));
     EXPECT_GE(gain, 0);
   }
