@@ -149,8 +149,10 @@ HWY_INLINE void Prefetch(const void* address, std::size_t bytes) {
 template <SampleType type>
 HWY_INLINE SegmentFindings Compare(const DepthToIndex& to_index, const SegmentPair<type>& pair, std::int16_t* index,
                                    SegmentDifference& difference) {
-  Prefetch(pair.colours + kTileWidth, kTileWidth * sizeof *pair.colours);
+  Prefetch(pair.colours + 2 * kTileWidth, kTileWidth * sizeof *pair.colours);
+  Prefetch(pair.old_colours + 2 * kTileWidth, kTileWidth * sizeof *pair.old_colours);
   Prefetch(pair.depth + 2 * kTileWidth, kTileWidth * sizeof *pair.depth);
+  Prefetch(pair.old_index + 2 * kTileWidth, kTileWidth * sizeof *pair.old_index);
   const SegmentFindings findings = SignedIndices(to_index, pair.depth, pair.n, index);
   if (!Equal(index, pair.old_index, pair.n * static_cast<int>(sizeof *index))) {
     difference.index = Differing(index, pair.old_index, pair.n);
