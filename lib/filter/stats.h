@@ -19,7 +19,7 @@ struct Stats {
   std::int64_t changed = 0;    // pixels that differed from the committed state; always updated + left_over
   std::int64_t updated = 0;    // of these, pixels taken over
   std::int64_t left_over = 0;  // of these, pixels that wait for a later call
-  std::int64_t edges = 0;      // run edges written (see scatter/kernel.h)
+  std::int64_t edges = 0;      // run edges written (see scatter/kernel.h): of a change of index those of both kernels
   std::int64_t resolved = 0;   // result pixels computed
   std::int64_t slices = 0;     // pieces the work was done in: 1 unless the call could be stopped
 
