@@ -6,6 +6,19 @@
 
 namespace pullfocus {
 
+namespace {
+
+// From this size of one layer on its sums would be gone from the caches before anyone reads them again.
+constexpr std::size_t kBeyondCaches = std::size_t{1} << 25;  // bytes
+
+}  // namespace
+
+LayerSums::Tile LayerSums::zeros() const {
+  Tile tile(CacheAligned<Accumulator>().allocate(tile_words()));
+  std::fill_n(tile.get(), tile_words(), Accumulator{0});
+  return tile;
+}
+
 void LayerSums::reset(int width, int height, int layers, int lanes) {
   grid_ = {width, height};
   layers_ = layers;
@@ -23,7 +36,7 @@ void LayerSums::make_room(int layer, const Window& reached) {
       Tile& tile = tiles_[index(layer, x, y)];
       if (tile) continue;
       if (spare_.empty()) {
-        tile = std::make_unique<Accumulator[]>(tile_words());
+        tile = zeros();
       } else {
         tile = std::move(spare_.back());
         spare_.pop_back();
@@ -55,6 +68,9 @@ void LayerSums::begin_anew() {
 // Rows are zero outside their spans, so they can be copied whole.
 void LayerSums::replace_row(int y, std::span<const LayerRow> rows) noexcept {
   is_row_new_[static_cast<std::size_t>(y)] = 1;
+  const std::size_t layer_bytes = static_cast<std::size_t>(grid_.count()) * tile_words() * sizeof(Accumulator);
+  const bool past_caches = layer_bytes >= kBeyondCaches;
+  const auto copy = past_caches ? copy_sums_past_caches : copy_sums;
   for (int layer = 0; layer < layers_; ++layer) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const LayerRow& r) { return r.layer == layer; });
     for (int x = 0; x < grid_.width; x += kTileWidth) {
@@ -65,10 +81,11 @@ void LayerSums::replace_row(int y, std::span<const LayerRow> rows) noexcept {
       if (row == rows.end()) {
         std::fill_n(out, n, Accumulator{0});
       } else {
-        std::copy_n(row->values + static_cast<std::ptrdiff_t>(x) * lanes_, n, out);
+        copy(row->values + static_cast<std::ptrdiff_t>(x) * lanes_, n, out);
       }
     }
   }
+  if (past_caches) finish_copies();
 }
 
 void LayerSums::end_anew() {
@@ -87,7 +104,7 @@ void LayerSums::widen() {
   spare_.clear();
   for (std::size_t t = 0; t < narrow.size(); ++t) {
     if (!narrow[t]) continue;
-    tiles_[t] = std::make_unique<Accumulator[]>(tile_words());
+    tiles_[t] = zeros();
     for (std::size_t p = 0; p < pixels; ++p) {
       const Accumulator* in = &narrow[t][p * kOpaqueLanes];
       Accumulator* out = &tiles_[t][p * kAlphaLanes];

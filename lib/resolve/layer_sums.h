@@ -8,6 +8,7 @@
 #include "image/tiles.h"
 #include "image/window.h"
 #include "scatter/scatter.h"
+#include "simd/aligned.h"
 
 namespace pullfocus {
 
@@ -50,7 +51,12 @@ class LayerSums {
   std::int64_t tiles(int layer) const noexcept;  // that hold memory
 
  private:
-  using Tile = std::unique_ptr<Accumulator[]>;
+  // On cache lines, as vectors are written past the caches.
+  struct Delete {
+    void operator()(Accumulator* values) const noexcept { CacheAligned<Accumulator>().deallocate(values, 0); }
+  };
+  using Tile = std::unique_ptr<Accumulator[], Delete>;
+  Tile zeros() const;
   std::size_t tile_words() const noexcept {
     return static_cast<std::size_t>(kTileWidth * kTileHeight) * static_cast<std::size_t>(lanes_);
   }

@@ -2,6 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scatter/sums.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -39,6 +40,14 @@ void AddSums(const Accumulator* HWY_RESTRICT values, std::size_t n, Accumulator*
   for (; i < n; ++i) sums[i] += values[i];
 }
 
+void CopySumsPastCaches(const Accumulator* HWY_RESTRICT values, std::size_t n, Accumulator* HWY_RESTRICT sums) {
+  const hn::ScalableTag<Accumulator> d;
+  const std::size_t step = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + step <= n; i += step) hn::Stream(hn::LoadU(d, values + i), d, sums + i);
+  for (; i < n; ++i) sums[i] = values[i];
+}
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace pullfocus
@@ -50,6 +59,7 @@ namespace pullfocus {
 HWY_EXPORT(PrefixSumOpaque);
 HWY_EXPORT(PrefixSumAlpha);
 HWY_EXPORT(AddSums);
+HWY_EXPORT(CopySumsPastCaches);
 
 void prefix_sum(Accumulator* values, int columns, int lanes) noexcept {
   if (lanes == kOpaqueLanes) {
@@ -58,6 +68,12 @@ void prefix_sum(Accumulator* values, int columns, int lanes) noexcept {
     HWY_DYNAMIC_DISPATCH(PrefixSumAlpha)(values, columns);
   }
 }
+
+void copy_sums_past_caches(const Accumulator* values, std::size_t n, Accumulator* sums) noexcept {
+  HWY_DYNAMIC_DISPATCH(CopySumsPastCaches)(values, n, sums);
+}
+
+void finish_copies() noexcept { hwy::FlushStream(); }
 
 void add_sums(const Accumulator* values, std::size_t n, Accumulator* sums) noexcept {
   HWY_DYNAMIC_DISPATCH(AddSums)(values, n, sums);

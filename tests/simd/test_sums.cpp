@@ -48,5 +48,20 @@ TEST(Sums, AddingRunsEqualsAddingValuesForAnyLengthAndTouchesNothingElse) {
   }
 }
 
+TEST(Sums, CopyingPastTheCachesCopiesAnyLengthAndTouchesNothingElse) {
+  for (const std::int64_t target : test::simd_targets()) {
+    const test::OnTarget on(target);
+    for (std::size_t n = 0; n < 70; ++n) {
+      const std::vector<Accumulator> values = random_values(n + 1);
+      std::vector<Accumulator, CacheAligned<Accumulator>> sums(n + 9, 7);
+      copy_sums_past_caches(values.data(), n, sums.data());
+      finish_copies();
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        ASSERT_EQ(sums[i], i < n ? values[i] : 7) << test::simd_target_name(target) << ", " << n;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pullfocus
