@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <stdexcept>
 #include <utility>
 
 namespace pullfocus {
@@ -126,6 +127,9 @@ class Planner {
 
 namespace {
 
+// At most: a row a level, and one a step between two of them.
+std::size_t value_rows(const Kernel& kernel) { return kernel.levels.size() + kernel.steps.size(); }
+
 // `added` and `taken` are null or kernels.
 EdgePlan plan_of_both(const Kernel* added, const Kernel* taken) {
   Planner planner(added != nullptr ? added->levels.size() - 1 : 0);
@@ -136,6 +140,9 @@ EdgePlan plan_of_both(const Kernel* added, const Kernel* taken) {
     kernels.push_back(kernel);
     first_rows.push_back(planner.add_levels(*kernel));
   }
+  std::size_t most_rows = 0;
+  for (const Kernel* kernel : kernels) most_rows += value_rows(*kernel);
+  if (most_rows >= kMostValueRows) throw std::logic_error("a kernel has too many levels");
   std::vector<std::vector<std::uint8_t>> rows;
   int radius = 0;
   for (std::size_t i = 0; i < kernels.size(); ++i) {
@@ -149,16 +156,13 @@ EdgePlan plan_of_both(const Kernel* added, const Kernel* taken) {
   return planner.plan();
 }
 
-// At most: a row a level, and one a step between two of them.
-std::size_t value_rows(const Kernel& kernel) { return kernel.levels.size() + kernel.steps.size(); }
-
 }  // namespace
 
 EdgePlan plan_of(const Kernel& kernel) { return plan_of_both(&kernel, nullptr); }
 
 std::vector<EdgePlan> plans_of_move(const Kernel& from, const Kernel& to) {
   std::vector<EdgePlan> plans;
-  if (value_rows(from) + value_rows(to) < kMostValueRows - 1) {
+  if (value_rows(from) + value_rows(to) < kMostValueRows) {
     plans.push_back(plan_of_both(&to, &from));
   } else {
     plans.push_back(plan_of_both(&to, nullptr));

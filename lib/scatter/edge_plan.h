@@ -49,7 +49,7 @@ struct EdgePlan {
   }
 };
 
-// Adds what `kernel` spreads.
+// Adds what `kernel` spreads. Throws std::logic_error if its levels and steps are not fewer than kMostValueRows.
 EdgePlan plan_of(const Kernel& kernel);
 
 // Adds what `to` spreads and takes back what `from` does, in one pass: where kernels of nearly the same size have edges

@@ -30,8 +30,7 @@ struct KernelEdge {
   bool rising;        // from low to high; else from high to low
 };
 
-// All pairs of 16 levels and the outside. The scatter keeps steps x 8 columns x 5 lanes of sums on the stack (43.5 kB
-// at most), of which a kernel touches only as much as it has steps; only noisy pictures have them all.
+// All pairs of 16 levels and the outside.
 inline constexpr std::size_t kMaxKernelSteps = 17 * 16 / 2;
 
 struct Kernel {

@@ -95,11 +95,12 @@ KernelTable::KernelTable(const KernelOptions& options)
   validate(options.shape);
   kernels_.resize(static_cast<std::size_t>(coc_.size()));
   const KernelOfDiameter make = kernel_of_diameter(options.shape, options.pixel_aspect);
+  plans_.resize(kernels_.size());
   tbb::parallel_for(
-      tbb::blocked_range<int>(0, coc_.size(), 1),
-      [&](const auto& range) {
-        for (int i = range.begin(); i < range.end(); ++i)
-          kernels_[static_cast<std::size_t>(i)] = make(coc_.diameter(i));
+      std::size_t{0}, kernels_.size(),
+      [&](std::size_t i) {
+        kernels_[i] = make(coc_.diameter(static_cast<int>(i)));
+        plans_[i] = plan_of(kernels_[i]);
       },
       tbb::simple_partitioner());
   bool point_symmetric = true;
@@ -109,10 +110,11 @@ KernelTable::KernelTable(const KernelOptions& options)
     point_symmetric &= mirrors.point;
   }
   if (!point_symmetric) {
-    for (const Kernel& kernel : kernels_) in_front_.push_back(reflected(kernel));
+    for (const Kernel& kernel : kernels_) {
+      in_front_.push_back(reflected(kernel));
+      plans_in_front_.push_back(plan_of(in_front_.back()));
+    }
   }
-  for (const Kernel& kernel : kernels_) plans_.push_back(plan_of(kernel));
-  for (const Kernel& kernel : in_front_) plans_in_front_.push_back(plan_of(kernel));
   moves_ = std::vector<Move>(static_cast<std::size_t>((2 * coc_.size() - 1) * (2 * kFarthestMove + 1)));
   for (const Kernel& kernel : kernels_) {
     areas_.push_back(area_of(kernel));

@@ -40,53 +40,40 @@ void Lanes(const Pixel<type>* pixels, int n, double sign, double* HWY_RESTRICT o
   }
 }
 
-// Bit i: a[i] == b[i], of kTileWidth values.
-std::uint64_t Equal(const std::int16_t* a, const std::int16_t* b) {
+// Bit i of kTileWidth: whether is(d, i) holds for value i, asked of vectors of values.
+template <class Is>
+HWY_INLINE std::uint64_t BitsOfRow(Is&& is) {
   const hn::CappedTag<std::int16_t, 32> d;
-  const int step = static_cast<int>(hn::Lanes(d));
   std::uint64_t bits = 0;
-  for (int i = 0; i < kTileWidth; i += step) {
+  for (int i = 0; i < kTileWidth; i += static_cast<int>(hn::Lanes(d))) {
     std::uint8_t stored[8] = {};
-    hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), stored);
+    hn::StoreMaskBits(d, is(d, i), stored);
     std::uint64_t part = 0;
     std::memcpy(&part, stored, sizeof part);
     bits |= part << i;
   }
   return bits;
+}
+
+// Bit i: a[i] == b[i], of kTileWidth values.
+std::uint64_t Equal(const std::int16_t* a, const std::int16_t* b) {
+  return BitsOfRow([&](auto d, int i) HWY_ATTR { return hn::Eq(hn::LoadU(d, a + i), hn::LoadU(d, b + i)); });
 }
 
 // Bit i: |a[i] - b[i]| <= most, of kTileWidth values.
 std::uint64_t Near(const std::int16_t* a, const std::int16_t* b, std::int16_t most) {
-  const hn::CappedTag<std::int16_t, 32> d;
-  const int step = static_cast<int>(hn::Lanes(d));
-  const auto high = hn::Set(d, most), low = hn::Neg(high);
-  std::uint64_t bits = 0;
-  for (int i = 0; i < kTileWidth; i += step) {
-    const auto v = hn::SaturatedSub(hn::LoadU(d, a + i), hn::LoadU(d, b + i));
-    std::uint8_t stored[8] = {};
-    hn::StoreMaskBits(d, hn::Not(hn::Or(hn::Lt(v, low), hn::Gt(v, high))), stored);
-    std::uint64_t part = 0;
-    std::memcpy(&part, stored, sizeof part);
-    bits |= part << i;
-  }
-  return bits;
+  return BitsOfRow([&](auto d, int i) HWY_ATTR {
+    const auto v = hn::SaturatedSub(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), high = hn::Set(d, most);
+    return hn::Not(hn::Or(hn::Lt(v, hn::Neg(high)), hn::Gt(v, high)));
+  });
 }
 
 // Bit i: first <= a[i] <= last, of kTileWidth values.
 std::uint64_t Within(const std::int16_t* a, std::int16_t first, std::int16_t last) {
-  const hn::CappedTag<std::int16_t, 32> d;
-  const int step = static_cast<int>(hn::Lanes(d));
-  const auto low = hn::Set(d, first), high = hn::Set(d, last);
-  std::uint64_t bits = 0;
-  for (int i = 0; i < kTileWidth; i += step) {
+  return BitsOfRow([&](auto d, int i) HWY_ATTR {
     const auto v = hn::LoadU(d, a + i);
-    std::uint8_t stored[8] = {};
-    hn::StoreMaskBits(d, hn::Not(hn::Or(hn::Lt(v, low), hn::Gt(v, high))), stored);
-    std::uint64_t part = 0;
-    std::memcpy(&part, stored, sizeof part);
-    bits |= part << i;
-  }
-  return bits;
+    return hn::Not(hn::Or(hn::Lt(v, hn::Set(d, first)), hn::Gt(v, hn::Set(d, last))));
+  });
 }
 
 void OpaqueHalf(const Pixel<SampleType::half>* pixels, int n, double sign, double* out) {
