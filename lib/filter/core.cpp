@@ -59,6 +59,13 @@ void FilterCore::check(const Frame& frame) const {
                   w.x1 - 1, w.y0, w.y1 - 1, window.x0, window.x1 - 1, window.y0, window.y1 - 1));
 }
 
+void FilterCore::set_budget(const Budget& budget) {
+  FilterOptions changed = options;
+  changed.budget = budget;
+  validate(changed);
+  options.budget = budget;
+}
+
 Window FilterCore::reached(const FrameFindings& findings) const noexcept {
   if (findings.content.empty()) return {window.x0, window.y0, window.x0 + 1, window.y0 + 1};
   const Window& c = findings.content;

@@ -32,6 +32,9 @@ struct FilterCore {
   // Throws Error(usage) if the frame has another window.
   void check(const Frame& frame) const;
 
+  // Throws Error(usage), and changes nothing then.
+  void set_budget(const Budget& budget);
+
   // State window the content of a frame can reach.
   Window reached(const FrameFindings& findings) const noexcept;
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "camera/thin_lens.h"
+#include "filter/left_over.h"
 #include "filter/options.h"
 #include "filter/stats.h"
 #include "image/frame.h"
@@ -12,7 +13,8 @@
 namespace pullfocus {
 
 // Asked at every slice border, from the thread that called filter(); true ends the call early. To stop from another
-// thread, let it read a std::stop_token or an atomic flag.
+// thread, let it read a std::stop_token or an atomic flag. A rebuild has no slices: with a stop request it is chosen only
+// where there is a time budget too, and it will end within that.
 using StopRequest = std::function<bool()>;
 
 // One shot at a time; not to be called from two threads at once. Colour is premultiplied, scene-linear RGBA.
@@ -38,6 +40,16 @@ class Filter {
   // Depends on the last frame alone if nothing was left over. Never empty: one pixel in the corner if there
   // is no content.
   virtual const Window& result_window() const noexcept = 0;
+
+  // What the last call left over, and how far result() may be from the exact picture. The frame of the last filter()
+  // call must still exist. Costs about what reading the frame does.
+  virtual LeftOver left_over() = 0;
+
+  // The priority of every pixel left over (see importance/order.h), 0 for all others. The frame as above.
+  virtual void left_over_importance(Plane& out) = 0;
+
+  // The budget of the calls that follow. Throws Error(usage) as validate() does.
+  virtual void set_budget(const Budget& budget) = 0;
 
   // Forgets all history: the next frame is a first frame.
   virtual void reset() = 0;

@@ -101,6 +101,20 @@ const Stats& IncrementalFilter::refine(const StopRequest& stop) {
   return stats_;
 }
 
+LeftOver IncrementalFilter::left_over() {
+  if (left_.empty()) return {};
+  LeftOver result;
+  core_.arena.execute([&] {
+    result = assess(left_, pending(), core_.scatter, core_.backdrop ? Backdrop::kReach : 0);
+  });
+  return result;
+}
+
+void IncrementalFilter::left_over_importance(Plane& out) {
+  if (left_.empty()) return out.reset(core_.window, 0);
+  core_.arena.execute([&] { importance_of(left_, pending(), core_.options.importance, out); });
+}
+
 ChangeThresholds IncrementalFilter::thresholds() const noexcept {
   ChangeThresholds thresholds = core_.options.thresholds;
   if (core_.options.error_bound > 0) thresholds.channel = core_.options.error_bound;

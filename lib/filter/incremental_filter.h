@@ -37,6 +37,9 @@ class IncrementalFilter final : public Filter {
   const Stats& refine(const StopRequest& stop = {}) override;
   const ColourImage& result() const noexcept override { return result_; }
   const Window& result_window() const noexcept override { return result_window_; }
+  LeftOver left_over() override;
+  void left_over_importance(Plane& out) override;
+  void set_budget(const Budget& budget) override { core_.set_budget(budget); }
   void reset() override;
 
   // For tests and tools: the committed state, and its sums by layer, lanes() values a pixel, row by row.

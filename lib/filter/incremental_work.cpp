@@ -17,7 +17,7 @@ std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector
     // A rebuild cannot be stopped: it must be sure to end in time.
     const double rebuild_ms =
         pace_.scatter_ms(edges_ + edges.committed) + pace_.resolve_ms(static_cast<std::int64_t>(core_.window.pixels()));
-    if (!cheaper || call.has_stop_request() || rebuild_ms > call.left_ms()) {
+    if (!cheaper || !call.timed() || rebuild_ms > call.left_ms()) {
       return take_over_in_slices(call, selected);
     }
   }

@@ -15,6 +15,9 @@ class LinearFilter final : public Filter {
   const Stats& refine(const StopRequest& stop = {}) override;
   const ColourImage& result() const noexcept override { return result_; }
   const Window& result_window() const noexcept override { return result_window_; }
+  LeftOver left_over() override { return {}; }
+  void left_over_importance(Plane& out) override { out.reset(core_.window, 0); }
+  void set_budget(const Budget& budget) override { core_.set_budget(budget); }
   void reset() override {}
 
  private:
