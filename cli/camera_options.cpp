@@ -94,6 +94,21 @@ Camera::Camera(const CameraArguments& a) : sensor_width_(a.sensor_width), unit_(
   }
 }
 
+CameraKeys Camera::keys() const {
+  CameraKeys keys{interpolation_, focus_, fstop_, focal_length_};
+  if (focus_from_pixel_) keys.focus = KeyedValue(*focus_from_pixel_, "--focus-at", Infinity::legal);
+  return keys;
+}
+
+void Camera::set_keys(const CameraKeys& keys) {
+  interpolation_ = keys.interpolation;
+  focus_ = keys.focus;
+  fstop_ = keys.fstop;
+  focal_length_ = keys.focal_length;
+  focus_from_pixel_.reset();
+  focus_pixel_.reset();
+}
+
 CameraSource Camera::lens(int frame, const exr::FileInfo& file) const {
   CameraSource found;
   ThinLens& lens = found.lens;

@@ -8,6 +8,7 @@
 #include "camera/keys.h"
 #include "camera/thin_lens.h"
 #include "exr/file_info.h"
+#include "key_file.h"
 
 namespace CLI {
 class App;
@@ -45,6 +46,10 @@ class Camera {
   DepthKind depth_kind() const noexcept { return depth_kind_; }
   const std::optional<FocusPixel>& focus_pixel() const noexcept { return focus_pixel_; }
   void set_focus(double distance) noexcept { focus_from_pixel_ = distance; }  // for focus_pixel()
+
+  // What options say of these settings, --focus-at included; and another choice in its place.
+  CameraKeys keys() const;
+  void set_keys(const CameraKeys& keys);
 
   // Lens of one frame: options first, then the header. Throws Error(usage) that lists every setting found in
   // neither.

@@ -21,6 +21,7 @@ Run add_bench_command(CLI::App& app);
 Run add_filter_command(CLI::App& app);
 Run add_compare_command(CLI::App& app);
 Run add_inspect_command(CLI::App& app);
+Run add_preview_command(CLI::App& app);
 Run add_render_command(CLI::App& app);
 
 // Gives `threads` threads (0: one a processor) to everything that computes in parallel, and as many to OpenEXR, until

@@ -1,5 +1,7 @@
 #include "filter_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
@@ -8,11 +10,8 @@
 
 namespace pullfocus::cli {
 
-void add_filter_options(CLI::App& app, FilterArguments& a) {
+void add_picture_options(CLI::App& app, FilterArguments& a) {
   const char* group = "Filter";
-  app.add_option("--method", a.method, "incremental: only what changed; linear: every frame anew; same result")
-      ->group(group)
-      ->capture_default_str();
   app.add_option("--kernel", a.kernel.kernel,
                  "intensity distribution: disc, polygon:N (N blades, 3 to 16), gaussian, diffraction, or image:FILE")
       ->group(group)
@@ -32,6 +31,25 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
       ->capture_default_str();
   app.add_option("--cutoff", a.cutoff,
                  "--visibility bitmap: CoC diameters that differ by up to so many pixels never hide each other")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--coc-step", a.coc_step,
+                 "step between CoC diameters as a share of them, half a pixel at least; 0: half a pixel")
+      ->group(group);
+  app.add_option("--max-coc", a.max_coc, "largest CoC diameter in pixels, 1 to 500")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--max-radiance", a.max_radiance, "colours are clamped to this magnitude")
+      ->group(group)
+      ->capture_default_str();
+  app.add_option("--output-type", a.output_type, "half or float (default: as the input's colour)")->group(group);
+  app.add_option("--threads", a.threads, "number of threads; 0: one a processor")->group(group)->capture_default_str();
+}
+
+void add_filter_options(CLI::App& app, FilterArguments& a) {
+  add_picture_options(app, a);
+  const char* group = "Filter";
+  app.add_option("--method", a.method, "incremental: only what changed; linear: every frame anew; same result")
       ->group(group)
       ->capture_default_str();
   app.add_option("--budget", a.budget,
@@ -67,17 +85,6 @@ void add_filter_options(CLI::App& app, FilterArguments& a) {
                  "let every output sample differ from the exact one by so much (linear): leaves small changes alone")
       ->group(group)
       ->capture_default_str();
-  app.add_option("--coc-step", a.coc_step,
-                 "step between CoC diameters as a share of them, half a pixel at least; 0: half a pixel")
-      ->group(group);
-  app.add_option("--max-coc", a.max_coc, "largest CoC diameter in pixels, 1 to 500")
-      ->group(group)
-      ->capture_default_str();
-  app.add_option("--max-radiance", a.max_radiance, "colours are clamped to this magnitude")
-      ->group(group)
-      ->capture_default_str();
-  app.add_option("--output-type", a.output_type, "half or float (default: as the input's colour)")->group(group);
-  app.add_option("--threads", a.threads, "number of threads; 0: one a processor")->group(group)->capture_default_str();
 }
 
 Method parse_method(const std::string& text) {
@@ -114,6 +121,12 @@ double coc_threshold(const std::string& text, const std::optional<double>& focal
 }
 
 }  // namespace
+
+std::string describe_method(const std::string& method, const FilterOptions& options) {
+  return fmt::format("{} kernel=\"{}\" visibility=\"{}\" coc_step={} max_coc={}", method,
+                     describe(options.kernel.shape), describe(options.visibility), options.kernel.coc_step,
+                     options.kernel.max_coc_px);
+}
 
 void check_filter_options(const FilterArguments& arguments) { filter_options(arguments, {1, {}, 1}); }
 

@@ -26,6 +26,8 @@ struct FilterArguments {
   float max_radiance = KernelOptions{}.max_radiance;
   int threads = 0;
 };
+// Those that the exact picture depends on, and --threads; and all of them.
+void add_picture_options(CLI::App& app, FilterArguments& arguments);
 void add_filter_options(CLI::App& app, FilterArguments& arguments);
 
 enum class Method { incremental, linear };
@@ -44,6 +46,9 @@ struct ShotFacts {
 
 // Throws Error(usage).
 FilterOptions filter_options(const FilterArguments& arguments, const ShotFacts& facts);
+
+// Method and settings in one line, for the headers of output files.
+std::string describe_method(const std::string& method, const FilterOptions& options);
 
 // Throws what filter_options() throws of the options alone: before any file is touched.
 void check_filter_options(const FilterArguments& arguments);

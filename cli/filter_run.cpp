@@ -30,12 +30,6 @@ class Interrupted : public Error {
       : Error(ErrorCode::content, fmt::format("interrupted before frame {}: earlier frames are complete", frame)) {}
 };
 
-std::string describe_method(const std::string& method, const FilterOptions& options) {
-  return fmt::format("{} kernel=\"{}\" visibility=\"{}\" coc_step={} max_coc={}", method,
-                     describe(options.kernel.shape), describe(options.visibility), options.kernel.coc_step,
-                     options.kernel.max_coc_px);
-}
-
 }  // namespace
 
 double frame_bytes_per_pixel(const ShotFrame& frame, std::optional<SampleType> output, int threads) {
@@ -60,7 +54,7 @@ FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera,
       compression_(compression_of(run)),
       shot_((check_filter_options(filter), input), camera,
             run.skip_bad_frames ? exr::BadFrames::keep : exr::BadFrames::fail),
-      writer_(shot_, run.output, compression_),
+      writer_(shot_, shot_.camera(), run.output, compression_),
       options_(filter_options(filter, shot_.facts())),
       method_(describe_method(filter.method, options_)),
       stats_((writer_.prepare_folder(run.make_folder), run.stats)),

@@ -27,8 +27,16 @@ std::string output_name(const std::string& text) {
 
 }  // namespace
 
-FrameWriter::FrameWriter(const Shot& shot, const std::string& out, std::optional<Imf::Compression> compression)
-    : shot_(shot), names_(output_name(out), shot.sequence().pattern, shot.frame_numbers()), compression_(compression) {}
+FrameWriter::FrameWriter(const Shot& shot, const Camera& camera, const std::string& out,
+                         std::optional<Imf::Compression> compression)
+    : FrameWriter(shot, camera, out, compression, shot.frame_numbers()) {}
+
+FrameWriter::FrameWriter(const Shot& shot, const Camera& camera, const std::string& out,
+                         std::optional<Imf::Compression> compression, const std::vector<int>& frames)
+    : shot_(shot),
+      camera_(camera),
+      names_(output_name(out), shot.sequence().pattern, frames),
+      compression_(compression) {}
 
 void FrameWriter::prepare_folder(bool make) const {
   if (make) {
@@ -47,7 +55,7 @@ Imf::Header FrameWriter::header(int frame, const ShotFrame& read, const std::str
   };
   say("pullfocus.version", kVersion);
   say("pullfocus.method", method + shot_.describe(read));
-  say("pullfocus.camera", shot_.camera().describe(frame, read.file));
+  say("pullfocus.camera", camera_.describe(frame, read.file));
   return header;
 }
 
@@ -60,7 +68,7 @@ void FrameWriter::write_colour(int frame, const ShotFrame& read, const std::stri
 }
 
 void FrameWriter::write_values(int frame, ShotFrame& read, const std::string& method, OutputKind kind) const {
-  const CocFunction coc = shot_.camera().coc(frame, read.file);
+  const CocFunction coc = camera_.coc(frame, read.file);
   Plane& values = read.frame.depth;
   const Window& w = values.window();
   for (int y = w.y0; y < w.y1; ++y) {

@@ -15,8 +15,13 @@ OutputKind parse_output_kind(const std::string& text);  // throws Error(usage)
 
 class FrameWriter {
  public:
-  // `out` as typed, `compression` unset: the input's. `shot` must live as long. Throws as exr::OutputNames.
-  FrameWriter(const Shot& shot, const std::string& out, std::optional<Imf::Compression> compression);
+  // `camera`: what the pictures are made with. `out` as typed, `compression` unset: the input's. `shot` and `camera`
+  // must live as long. Throws as exr::OutputNames.
+  FrameWriter(const Shot& shot, const Camera& camera, const std::string& out,
+              std::optional<Imf::Compression> compression);
+  // For these frames of the shot only.
+  FrameWriter(const Shot& shot, const Camera& camera, const std::string& out,
+              std::optional<Imf::Compression> compression, const std::vector<int>& frames);
 
   void prepare_folder(bool make) const;  // throws Error(unwritable)
   std::string path(int frame) const { return names_.path(frame); }
@@ -34,6 +39,7 @@ class FrameWriter {
   Imf::Header header(int frame, const ShotFrame& read, const std::string& method, const Window& data_window) const;
 
   const Shot& shot_;
+  const Camera& camera_;
   exr::OutputNames names_;
   std::optional<Imf::Compression> compression_;
 };

@@ -10,6 +10,7 @@ namespace pullfocus::cli {
 struct KernelArguments {
   std::string kernel = "disc";
   double blade_rotation = KernelShape{}.blade_rotation_deg, blade_roundness = KernelShape{}.blade_roundness;
+  bool operator==(const KernelArguments&) const = default;
 };
 
 // "image:FILE" is read (Rec. 709 luminance of its linear, premultiplied colours). Throws Error(usage).

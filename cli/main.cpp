@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
     cli::add_config_option(*sub);
   };
   add("filter", "filter a sequence: RGB + depth EXR in, depth of field out", cli::add_filter_command);
+  add("preview", "try focus, aperture and keys on a shot in a window, and export them", cli::add_preview_command);
   add("inspect", "say what a sequence holds, how it is understood and what filtering it will cost",
       cli::add_inspect_command);
   add("compare", "measure speed against error of methods and budgets over sequences", cli::add_compare_command);

@@ -56,6 +56,7 @@ double pixels_per_mm(const ThinLens& lens, const Raster& raster);
 // Artistic multipliers of the diameter, finite and >= 0. 1 leaves every bit of it, 0 makes that side sharp.
 struct CocScale {
   float in_front = 1, behind = 1;  // of focus
+  bool operator==(const CocScale&) const = default;
 };
 
 // Throws Error(usage) naming --near-scale or --far-scale.
@@ -68,6 +69,7 @@ struct CocFunction {
   float scale = 0;          // pixels times scene units, finite and > 0 (planar)
   float inverse_focus = 0;  // 1/P in 1 / scene units, finite; 0 for focus at infinity
   CocScale artistic{};      // of either kind of depth
+  bool operator==(const CocFunction&) const = default;
 
   float operator()(float depth) const noexcept {
     return scaled(kind == DepthKind::coc ? depth : scale * (inverse_focus - 1.0f / depth));

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 #include "filter/call.h"
@@ -135,7 +136,7 @@ void IncrementalFilter::finish(Call& call, std::vector<TileWork> changed, const 
   // What was left over or exempt may show what this frame no longer has.
   const bool behind = stats_.left_over > 0 || thresholds().any();
   result_window_ = behind ? unite(result_window_, reached_) : reached_;
-  if (was_incomplete) count_uncommitted();
+  if (was_incomplete) count_uncommitted(done);
   resolve_dirty();
   if (uncommitted_ > 0) show_uncommitted(*frame_);
   stats_.resolve_ms = resolve.ms();
@@ -152,11 +153,16 @@ std::vector<TileWork> IncrementalFilter::select(const Changes& changes) const {
   return select_pixels(changes, pending(), core_.options.importance, waiting_, allowance);
 }
 
-void IncrementalFilter::count_uncommitted() {
+void IncrementalFilter::count_uncommitted(const std::vector<TileWork>& committed) {
   uncommitted_ = std::count(state_.index.begin(), state_.index.end(), kNeverCommitted);
   // Such pixels showed the input: those that have been committed since must be resolved wherever they lie.
   if (stats_.mode == ScatterMode::rebuild && uncommitted_ == 0) return;
-  for (int y = 0; y < core_.window.height(); ++y) dirty_.mark(y, 0, core_.window.width());
+  const TileGrid grid = grid_of(core_.window);
+  for (const TileWork& work : committed) {
+    const TileMask::Bounds part = work.mask.bounds();
+    const int x = grid.x(work.tile), y = grid.y(work.tile);
+    for (int row = part.y0; row < part.y1; ++row) dirty_.mark(y + row, x + part.x0, x + part.x1);
+  }
 }
 
 // A pixel never committed shows the frame itself, sanitised.
@@ -169,6 +175,10 @@ void IncrementalFilter::show_uncommitted(const Frame& frame) {
       for (int x = w.x0; x < w.x1; ++x) {
         if (index[x - w.x0] != kNeverCommitted) continue;
         const Pixel<type> pixel = core_.sanitiser(load_pixel<type>(frame.colour.pixel(x, y)));
+        if (result_.type() == type) {
+          std::memcpy(result_.pixel(x, y), &pixel, sizeof pixel);
+          continue;
+        }
         for (int c = 0; c < 4; ++c) {
           const float value = sample_value(pixel.rgba[c]);
           result_.set(x, y, c, result_.type() == SampleType::half ? std::clamp(value, -65504.f, 65504.f) : value);

@@ -62,7 +62,6 @@ class IncrementalFilter final : public Filter {
   // Scatters and commits the selection, in slices if the call can be stopped; returns what was committed.
   std::vector<TileWork> take_over(Call& call, const std::vector<TileWork>& selected);
   std::vector<TileWork> take_over_in_slices(Call& call, const std::vector<TileWork>& selected);
-  std::int64_t pixels_to_resolve() const noexcept;
   bool rebuild_is_cheaper(const EdgeCount& edges, const std::vector<TileWork>& selected) const noexcept;
   void add(const std::vector<LayerWork>& work, const Sources& sources);
   void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
@@ -70,7 +69,7 @@ class IncrementalFilter final : public Filter {
   void mark_held_out(const std::vector<TileWork>& tiles);
   void make_room(const LayerWork& work);
   void resolve_dirty();
-  void count_uncommitted();
+  void count_uncommitted(const std::vector<TileWork>& committed);
   void show_uncommitted(const Frame& frame);
 
   FilterCore core_;

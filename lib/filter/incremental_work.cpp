@@ -35,7 +35,7 @@ std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const s
   constexpr double slice_ms = 1;
   std::vector<TileWork> done;
   SliceQueue queue(selected, pending(), core_.options.importance, waiting_);
-  std::int64_t dirty = pixels_to_resolve(), growth = 0;
+  std::int64_t dirty = dirty_.pixels(), growth = 0;
   double before = call.timed() ? call.elapsed_ms() : 0;
   while (!queue.empty() && !call.stopped()) {
     std::int64_t room = core_.options.slice_edges;
@@ -52,16 +52,11 @@ std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const s
     const double after = call.elapsed_ms();
     pace_.scattered(edges.written, after - before);
     before = after;
-    const std::int64_t now_dirty = pixels_to_resolve();
+    const std::int64_t now_dirty = dirty_.pixels();
     growth = now_dirty - dirty;
     dirty = now_dirty;
   }
   return merged(std::move(done));
-}
-
-// Where pixels have never been committed, all of them will be resolved or shown.
-std::int64_t IncrementalFilter::pixels_to_resolve() const noexcept {
-  return uncommitted_ > 0 ? static_cast<std::int64_t>(core_.window.pixels()) : dirty_.pixels();
 }
 
 // Integers fitted to times of frames done both ways (docs/benchmarks.md, "Update or rebuild"), with 5 for an edge.

@@ -1,0 +1,113 @@
+// Of a session: what leaves it, as files.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "frame_writer.h"
+#include "image/error.h"
+#include "imageio/picture.h"
+#include "preview/command_text.h"
+#include "preview/live_session.h"
+
+namespace pullfocus::cli::preview {
+
+namespace {
+
+bool is_exr(const std::string& file) { return file.ends_with(".exr") || file.ends_with(".EXR"); }
+
+imageio::Picture to_picture(const ColourImage& colour, float exposure) {
+  const Window& w = colour.window();
+  const float factor = std::exp2(exposure);
+  imageio::Picture picture{w.width(), w.height(), {}};
+  picture.rgba.reserve(w.pixels() * 4);
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      for (int c = 0; c < 4; ++c) picture.rgba.push_back(colour.get(x, y, c) * (c < 3 ? factor : 1));
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+void LiveSession::save_keys(const std::string& file) {
+  save_camera_keys(choice_.keys, file);
+  saved_ = choice_.keys;
+  keys_file_ = file;
+  say("saved camera keys to " + file);
+}
+
+// The engine makes the exact picture; another thread writes it. As `filter` writes an EXR file, with all its channels;
+// any other format holds the state window, with the exposure of the view.
+void LiveSession::export_frame(const std::string& file) {
+  if (file.empty()) throw Error(ErrorCode::usage, "export: give a file, such as frame.exr or frame.png");
+  if (is_exr(file)) {
+    const exr::OutputNames names(file, shot_.sequence().pattern, {number()});
+    names.require_folder();
+  }
+  Wish wish = make_wish(false);
+  const float exposure = look_.exposure;
+  engine_.finish(wish, [this, file, wish, exposure](const Exact* exact, const std::string& problem) {
+    const int number = shot_.sequence().frames[wish.frame].frame;
+    if (exact == nullptr) return say(fmt::format("{}: not written: frame {}: {}", file, number, problem), true);
+    jobs_.add([this, file, wish, exposure, colour = exact->colour, window = exact->window] {
+      write_frame(file, wish.frame, wish.camera, wish.setup, colour, window, exposure);
+    });
+  });
+  wish.id = ++request_;  // and on from there
+  wish.hurried = false;
+  engine_.want(std::move(wish));
+}
+
+void LiveSession::write_frame(const std::string& file, std::size_t frame, std::shared_ptr<const Camera> camera,
+                              std::shared_ptr<const FilterSetup> setup, const ColourImage& colour, const Window& window,
+                              float exposure) {
+  try {
+    const exr::SequenceFrame& from = shot_.sequence().frames[frame];
+    if (is_exr(file)) {
+      ShotFrame read;
+      shot_.read(from, read, true);
+      exr::ExtraChannels scratch;
+      const FrameWriter writer(shot_, *camera, file, std::nullopt, {from.frame});
+      writer.write_colour(from.frame, read, setup->method, colour, window, scratch);
+    } else {
+      imageio::write_picture(file, to_picture(colour, exposure));
+    }
+    say(fmt::format("wrote frame {} to {}", from.frame, file));
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+void LiveSession::export_shot(const std::string& out) {
+  if (out.empty())
+    throw Error(ErrorCode::usage, "export-shot: give a folder or a pattern, such as out/ or out.####.exr");
+  if (shot_run_ && !shot_run_->is_over()) {
+    throw Error(ErrorCode::usage, "export-shot: a shot is being written: wait for it, or cancel");
+  }
+  FilterArguments filter = arguments_.filter;
+  filter.kernel = choice_.kernel;
+  filter.visibility = choice_.visibility;
+  std::vector<std::string> words = filter_arguments(arguments_.input, arguments_.camera, choice_.keys, filter, out);
+  words.insert(words.end(), {"--stats", "-", "--mkdir", "--skip-bad-frames"});
+  shot_run_ = nullptr;
+  shot_run_ = std::make_unique<FilterProcess>(words, shot_.sequence().frames.size(), [this] { changed(); });
+  say("writing the shot to " + out);
+}
+
+// Says how a shot being written has ended.
+void LiveSession::watch_shot() {
+  if (!shot_run_ || !shot_run_->is_over()) return;
+  const int code = shot_run_->exit_code();
+  if (code == 0) {
+    say("the shot is written");
+  } else {
+    say(fmt::format("the shot is not complete: {}",
+                    shot_run_->last_error().empty() ? fmt::format("exit code {}", code) : shot_run_->last_error()),
+        true);
+  }
+  shot_run_ = nullptr;
+}
+
+}  // namespace pullfocus::cli::preview

@@ -1,0 +1,274 @@
+#include "preview/live_session.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "image/error.h"
+#include "preview/command_text.h"
+
+namespace pullfocus::cli::preview {
+
+namespace {
+
+// Beside nothing else, "shot.keys.toml" in the current folder for "somewhere/shot.####.exr".
+std::string usual_keys_file(const std::string& input) {
+  std::string name = std::filesystem::path(input).filename().string();
+  name = name.substr(0, name.find_first_of("#@%"));
+  if (name.ends_with(".exr") || name.ends_with(".EXR")) name.resize(name.size() - 4);
+  while (!name.empty() && std::string("._-").find(name.back()) != std::string::npos) name.pop_back();
+  return (name.empty() ? "shot" : name) + ".keys.toml";
+}
+
+std::size_t memory_of_process() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+LiveSession::LiveSession(const PreviewArguments& arguments)
+    : arguments_(arguments),
+      shot_(arguments.input, arguments.camera, exr::BadFrames::keep),
+      camera_(shot_.camera()),
+      choice_{shot_.camera().keys(), arguments.filter.kernel, arguments.filter.visibility},
+      saved_(choice_.keys),
+      budget_text_(arguments.budget),
+      keys_file_(arguments.keys),
+      budget_(Budget::parse(arguments.budget)),
+      cache_(shot_, static_cast<std::size_t>(arguments.cache_mb * 1e6), [this] { engine_.on_read(); }),
+      engine_(shot_, cache_, [this] { changed(); }) {
+  setup_ = make_setup(choice_);
+  const std::optional<std::string>& focus = arguments.camera.focus;
+  if (keys_file_.empty() && focus && focus->starts_with('@')) keys_file_ = focus->substr(1);
+  if (keys_file_.empty()) keys_file_ = usual_keys_file(arguments.input.input);
+  if (!arguments.record.empty()) {
+    record_.open(arguments.record);
+    if (!record_) throw Error(ErrorCode::unwritable, "--record " + arguments.record + ": cannot be written");
+  }
+  for (const auto& frame : shot_.sequence().frames) {
+    if (!frame.problem.empty()) say(frame.problem, true);
+  }
+  failures_ = 0;  // of what is done from now on
+  wish();
+}
+
+// Nothing is read any more, what is being filtered ends, what is to be written is written.
+LiveSession::~LiveSession() {
+  on_change({});
+  cache_.stop();
+}
+
+std::shared_ptr<const FilterSetup> LiveSession::make_setup(const Choice& choice) const {
+  FilterArguments filter = arguments_.filter;
+  filter.kernel = choice.kernel;
+  filter.visibility = choice.visibility;
+  const exr::FileInfo& first = shot_.sequence().first;
+  auto setup = std::make_shared<FilterSetup>();
+  setup->options = filter_options(filter, {static_cast<double>(first.pixel_aspect), first.chromaticities, {}});
+  setup->method = describe_method("incremental", setup->options);
+  return setup;
+}
+
+Wish LiveSession::make_wish(bool hurried) {
+  auto camera = std::make_shared<Camera>(camera_);
+  return {++request_, frame_, std::move(camera), setup_, budget_, refine_, hurried, look_};
+}
+
+void LiveSession::wish() { engine_.want(make_wish(holding_ || playing_)); }
+
+void LiveSession::changed() const {
+  std::function<void()> wake;
+  {
+    const std::lock_guard lock(mutex_);
+    wake = wake_;
+  }
+  if (wake) wake();
+}
+
+void LiveSession::on_change(std::function<void()> wake) {
+  const std::lock_guard lock(mutex_);
+  wake_ = std::move(wake);
+}
+
+void LiveSession::say(std::string message, bool is_error) {
+  {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back((is_error ? "error: " : "") + message);
+    message_ = std::move(message);
+    message_is_error_ = is_error;
+    failures_ += is_error;
+  }
+  changed();
+}
+
+std::vector<std::string> LiveSession::take_messages() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(messages_, {});
+}
+
+int LiveSession::failures() const {
+  const std::lock_guard lock(mutex_);
+  return failures_;
+}
+
+bool LiveSession::is_settled() const { return engine_.is_settled(); }
+
+bool LiveSession::is_writing() const { return jobs_.waiting() > 0 || (shot_run_ && !shot_run_->is_over()); }
+
+void LiveSession::use(const Choice& choice) {
+  if (choice.kernel != choice_.kernel || choice.visibility != choice_.visibility) setup_ = make_setup(choice);
+  choice_ = choice;
+  camera_.set_keys(choice_.keys);
+  wish();
+}
+
+void LiveSession::choose(Choice choice) {
+  if (choice == choice_) return;
+  const Choice before = choice_;
+  use(choice);
+  if (!holding_ || !held_) undo_.push_back(before);
+  held_ = holding_;
+  redo_.clear();
+}
+
+void LiveSession::undo(std::vector<Choice>& from, std::vector<Choice>& to) {
+  if (from.empty()) return say("there is nothing to take back");
+  to.push_back(choice_);
+  const Choice choice = std::move(from.back());
+  from.pop_back();
+  use(choice);
+}
+
+void LiveSession::go_to(std::size_t frame) {
+  if (frame == frame_) return;
+  frame_ = frame;
+  wish();
+}
+
+std::size_t LiveSession::position_of(const std::string& text) const {
+  const auto& frames = shot_.sequence().frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (std::to_string(frames[i].frame) == text) return i;
+  }
+  throw Error(ErrorCode::usage, fmt::format("frame {} is not part of the shot, which has {} frames from {} to {}", text,
+                                            frames.size(), frames.front().frame, frames.back().frame));
+}
+
+// Real time: a frame is shown until the next one's time has come, and at least once; those whose time passes meanwhile
+// are dropped.
+void LiveSession::tick(double seconds) {
+  watch_shot();
+  if (!playing_) return;
+  if (!play_start_) {
+    play_start_ = seconds;
+    play_from_ = frame_;
+  }
+  const auto passed = static_cast<std::size_t>(std::max(0., std::floor((seconds - *play_start_) * fps_)));
+  const std::size_t target = play_from_ + passed, count = shot_.sequence().frames.size();
+  if (target <= frame_ || engine_.shown()->request != request_) return;
+  if (target < count) {
+    dropped_ += static_cast<std::int64_t>(target - frame_ - 1);
+    return go_to(target);
+  }
+  dropped_ += static_cast<std::int64_t>(count - 1 - frame_);
+  if (loop_) {
+    play_start_ = seconds;
+    play_from_ = 0;
+    go_to(0);
+  } else if (frame_ + 1 < count) {
+    go_to(count - 1);
+  } else {
+    playing_ = false;
+    wish();  // without hurry
+  }
+}
+
+Snapshot LiveSession::snapshot() {
+  Snapshot s;
+  s.shown = engine_.shown();
+  s.request = request_;
+  s.frames = shot_.frame_numbers();
+  s.loaded = cache_.loaded();
+  s.frame = frame_;
+  const FrameCache::Entry entry = cache_.look(frame_);
+  s.loading = !entry.frame && entry.problem.empty();
+  const Window& window = shot_.state_window();
+  s.window_x0 = window.x0;
+  s.window_y0 = window.y0;
+  s.width = window.width();
+  s.height = window.height();
+  s.pixel_aspect = static_cast<double>(shot_.sequence().first.pixel_aspect);
+
+  s.keys = choice_.keys;
+  s.has_lens = camera_.depth_kind() != DepthKind::coc;
+  s.focus = setting_now("focus");
+  s.fstop = setting_now("fstop");
+  s.focal_length = setting_now("focal-length");
+  s.kernel = choice_.kernel.kernel;
+  s.visibility = choice_.visibility;
+  s.budget = budget_text_;
+  s.refine = refine_;
+  s.look = look_;
+  s.playing = playing_;
+  s.loop = loop_;
+  s.fps = fps_;
+  s.dropped = dropped_;
+  s.unsaved = !(choice_.keys == saved_);
+  s.can_undo = !undo_.empty();
+  s.can_redo = !redo_.empty();
+  s.keys_file = keys_file_;
+  s.command_line = shell_line(filter_arguments(
+      arguments_.input, arguments_.camera, choice_.keys,
+      [&] {
+        FilterArguments filter = arguments_.filter;
+        filter.kernel = choice_.kernel;
+        filter.visibility = choice_.visibility;
+        return filter;
+      }(),
+      arguments_.out.empty() ? "OUT/" : arguments_.out));
+  if (shot_run_ && !shot_run_->is_over()) s.job = shot_run_->share_done();
+  s.writing = jobs_.waiting();
+  s.memory_bytes = memory_of_process();
+  s.title = shot_.sequence().pattern.text();
+  const std::lock_guard lock(mutex_);
+  s.message = message_;
+  s.message_is_error = message_is_error_;
+  return s;
+}
+
+Probe LiveSession::probe(int x, int y) {
+  Probe probe;
+  const std::shared_ptr<const Shown> shown = engine_.shown();
+  const std::shared_ptr<const ShotFrame> frame = cache_.look(shown->frame).frame;
+  const Window& w = shot_.state_window();
+  x += w.x0;
+  y += w.y0;
+  if (!frame || !w.contains(x, y)) return probe;
+  probe.inside = true;
+  probe.depth = frame->frame.depth.at(x, y);
+  probe.background = is_background(camera_.depth_kind(), probe.depth);
+  for (int c = 0; c < 4; ++c) probe.colour[c] = frame->frame.colour.get(x, y, c);
+  try {
+    const CocFunction coc = camera_.coc(shot_.sequence().frames[shown->frame].frame, frame->file);
+    probe.coc = probe.background ? coc.background() : coc(probe.depth);
+    probe.has_coc = true;
+  } catch (const Error&) {  // the camera is not complete
+  }
+  return probe;
+}
+
+void LiveSession::act(const Action& action) noexcept {
+  try {
+    perform(action);
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+}  // namespace pullfocus::cli::preview
