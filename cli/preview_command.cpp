@@ -59,6 +59,7 @@ Run add_preview_command(CLI::App& app) {
     const preview::WindowModule& module = preview::window_module();  // before anything is read
     preview::LiveSession live(a->session);
     window.export_shot = a->session.out;
+    window.export_file = "preview.####.exr";
     const std::string problem = module.run(live, window);
     if (!problem.empty())
       throw Error(ErrorCode::unreadable, "preview: no window: " + problem + " (--headless SCRIPT needs none)");

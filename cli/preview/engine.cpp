@@ -123,18 +123,19 @@ void Engine::deliver(const Take& take) {
 Engine::Next Engine::step(const Wish& wish, bool to_the_end) {
   const FrameCache::Entry entry = cache_.get(wish.frame);
   if (!entry.frame && entry.problem.empty()) return Next::file;  // on_read() will tell
-  if (now_.request != wish.id) {
-    now_.request = wish.id;
-    now_.frame = wish.frame;
-    now_.first_ms = now_.total_ms = 0;
-    now_.calls = 0;
-  }
+  now_.request = wish.id;
+  now_.frame = wish.frame;
   now_.problem.clear();
   try {
     if (!entry.problem.empty()) throw Error(ErrorCode::unreadable, entry.problem);
     if (frame_ != entry.frame) {
       frame_ = entry.frame;
       has_result_ = complete_ = full_is_valid_ = picture_is_valid_ = false;
+      if (wish.camera->depth_kind() == DepthKind::planar) {
+        const DepthRange range = depth_range(frame_->frame);
+        now_.depth_near = range.near;
+        now_.depth_far = range.far;
+      }
     }
     const CocFunction coc = wish.camera->coc(shot_.sequence().frames[wish.frame].frame, frame_->file);
     if (setup_ != wish.setup) {
@@ -171,9 +172,8 @@ void Engine::begin(const Wish& wish) {
   now_.stats = filter_->filter(frame_->frame, coc_);
   has_result_ = true;
   complete_ = now_.stats.left_over == 0;
-  now_.first_ms = now_.stats.filter_ms;
-  now_.total_ms += now_.stats.filter_ms;
-  ++now_.calls;
+  now_.first_ms = now_.total_ms = now_.stats.filter_ms;
+  now_.calls = 1;
 }
 
 // In pictures: each call ends for the next picture, or for a newer wish. What a call begins with takes its time too, so

@@ -40,8 +40,9 @@ void LiveSession::save_keys(const std::string& file) {
 
 // The engine makes the exact picture; another thread writes it. As `filter` writes an EXR file, with all its channels;
 // any other format holds the state window, with the exposure of the view.
-void LiveSession::export_frame(const std::string& file) {
-  if (file.empty()) throw Error(ErrorCode::usage, "export: give a file, such as frame.exr or frame.png");
+void LiveSession::export_frame(const std::string& name) {
+  if (name.empty()) throw Error(ErrorCode::usage, "export: give a file, such as frame.exr or frame.####.png");
+  const std::string file = exr::Pattern::parse(name).path(number());
   if (is_exr(file)) {
     const exr::OutputNames names(file, shot_.sequence().pattern, {number()});
     names.require_folder();

@@ -86,7 +86,7 @@ class LiveSession final : public Session {
   void move_key(const Words& words);
   void undo(std::vector<Choice>& from, std::vector<Choice>& to);
   void save_keys(const std::string& file);
-  void export_frame(const std::string& file);
+  void export_frame(const std::string& name);
   void write_frame(const std::string& file, std::size_t frame, std::shared_ptr<const Camera> camera,
                    std::shared_ptr<const FilterSetup> setup, const ColourImage& colour, const Window& window,
                    float exposure);

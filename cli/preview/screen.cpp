@@ -75,33 +75,35 @@ void show_colour(const ColourImage& colour, const ToneTable& tone, Picture& out)
   show_colour_left_of(out.width, colour, tone, out);
 }
 
+DepthRange depth_range(const Frame& frame) {
+  const Window& w = frame.window();
+  std::vector<float> depths;
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(w.pixels()) / 1e5)));
+  for (int y = w.y0; y < w.y1; y += step) {
+    for (int x = w.x0; x < w.x1; x += step) {
+      const float depth = frame.depth.at(x, y);
+      if (!is_background(DepthKind::planar, depth)) depths.push_back(depth);
+    }
+  }
+  if (depths.empty()) return {};
+  const auto at = [&](double share) {
+    const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(depths.size() - 1));
+    std::nth_element(depths.begin(), depths.begin() + n, depths.end());
+    return depths[static_cast<std::size_t>(n)];
+  };
+  return {at(0.01), at(0.99)};
+}
+
 void show_depth(const Frame& frame, DepthKind kind, Picture& out) {
   if (kind == DepthKind::coc) {
     const CocFunction coc{DepthKind::coc, 1, 0};
     return show_coc(frame, &coc, 40, out);
   }
-  const Window& w = frame.window();
-  size_for(w, out);
-  std::vector<float> inverse;  // of a sparse sample
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(w.pixels()) / 1e5)));
-  for (int y = w.y0; y < w.y1; y += step) {
-    for (int x = w.x0; x < w.x1; x += step) {
-      const float depth = frame.depth.at(x, y);
-      if (!is_background(kind, depth)) inverse.push_back(1 / depth);
-    }
-  }
-  float far = 0, near = 1;
-  if (!inverse.empty()) {
-    const auto at = [&](double share) {
-      const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(inverse.size() - 1));
-      std::nth_element(inverse.begin(), inverse.begin() + n, inverse.end());
-      return inverse[static_cast<std::size_t>(n)];
-    };
-    far = at(0.01);
-    near = at(0.99);
-  }
+  size_for(frame.window(), out);
+  const DepthRange range = depth_range(frame);
+  const float far = range.far > 0 ? 1 / range.far : 0, near = range.near > 0 ? 1 / range.near : 0;
   const float scale = near > far ? 0.85f / (near - far) : 0;
-  fill(w, out.width, out, [&](int x, int y) {
+  fill(frame.window(), out.width, out, [&](int x, int y) {
     const float depth = frame.depth.at(x, y);
     if (is_background(kind, depth)) return packed(0, 0, 0);
     const std::uint8_t grey = byte(std::clamp(0.15f + (1 / depth - far) * scale, 0.1f, 1.f));

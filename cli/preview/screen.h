@@ -32,8 +32,14 @@ void show_colour(const ColourImage& colour, const ToneTable& tone, Picture& out)
 // Columns left of `end` (0..width) only; the rest stays.
 void show_colour_left_of(int end, const ColourImage& colour, const ToneTable& tone, Picture& out);
 
-// Near bright, far dark, linear in inverse depth between the 1st and the 99th percentile of the frame; background
-// black. For DepthKind::coc as show_coc().
+// The 1st and the 99th percentile of the surfaces' depths, from a sample of the pixels; 0 and 0 without any. Planar.
+struct DepthRange {
+  float near = 0, far = 0;
+};
+DepthRange depth_range(const Frame& frame);
+
+// Near bright, far dark, linear in inverse depth over the range of the frame; background black. For DepthKind::coc as
+// show_coc().
 void show_depth(const Frame& frame, DepthKind kind, Picture& out);
 
 // Signed CoC: in front of focus red, behind it blue, in focus (up to 1 px) green, the more saturated the larger (full

@@ -42,8 +42,9 @@ struct Shown {
   bool exact = false;                      // nothing is left over
   LeftOver left;                           // empty if exact
   Stats stats;                             // of the last call
-  double first_ms = 0, total_ms = 0;       // filter time of this request: to its first picture, up to now
-  int calls = 0;                           // of the filter for this request
+  double first_ms = 0, total_ms = 0;       // filter time for this frame and lens: to the first picture, up to now
+  int calls = 0;                           // of the filter for these
+  float depth_near = 0, depth_far = 0;     // of the frame's surfaces; 0: it has none
   std::string problem;                     // why there is no (better) picture; empty: none
 };
 
