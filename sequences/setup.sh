@@ -11,10 +11,12 @@ packages=(
   nlohmann-json3-dev libtomlplusplus-dev
   libglm-dev                    # geometry of shots
   libembree-dev libtinygltf-dev # rays, glTF scenes
+  libimgui-dev libglfw3-dev libgl-dev  # the preview's window
   python3 gnuplot-nox           # the report of speed against error
   libgtest-dev                  # tests
   libbenchmark-dev              # micro-benchmarks
   openimageio-tools             # the demo's PNG; an independent reader in the tests
+  xvfb xdotool libgl1-mesa-dri  # the window's tests: a display, mouse and keyboard, OpenGL in software
 )
 missing=()
 for package in "${packages[@]}"; do

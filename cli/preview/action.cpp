@@ -35,7 +35,7 @@ std::string to_line(const Action& action) {
   std::string line = action.verb;
   for (const std::string& argument : action.arguments) {
     line += ' ';
-    if (!argument.empty() && argument.find_first_of(" \t\r\"\\#") == std::string::npos) {
+    if (!argument.empty() && argument.front() != '#' && argument.find_first_of(" \t\r\"\\") == std::string::npos) {
       line += argument;
       continue;
     }

@@ -14,9 +14,9 @@ struct Action {
   bool operator==(const Action&) const = default;
 };
 
-// Words are separated by blanks; one with blanks, quotes or # in it stands in double quotes, in which \" and \\ are a
-// quote and a backslash. From a # that begins a word on, the rest is a comment. An empty verb: nothing but blanks and
-// comment. Throws Error(usage) for an open quote.
+// Words are separated by blanks; one with blanks or quotes in it, or # before it, stands in double quotes, in which \"
+// and \\ are a quote and a backslash. From a # that begins a word on, the rest is a comment. An empty verb: nothing but
+// blanks and comment. Throws Error(usage) for an open quote.
 Action parse_action(std::string_view line);
 std::string to_line(const Action& action);  // what parse_action() turns into an equal action
 

@@ -83,14 +83,14 @@ std::optional<std::size_t> FrameCache::next() const {
     const std::size_t i = (centre_ + ahead) % count_;  // beyond the last comes the first: shots are played in loops
     if (!held_.contains(i)) return i;
   }
-  if (centre_ > 0 && !held_.contains(centre_ - 1)) return centre_ - 1;
-  return std::nullopt;
+  const std::size_t before = (centre_ + count_ - 1) % count_;
+  return held_.contains(before) ? std::nullopt : std::optional(before);
 }
 
 void FrameCache::make_room(std::size_t bytes) {
   // How soon playing on from the centre gets there; the one just before it counts as near.
   const auto soon = [&](std::size_t i) {
-    return i + 1 == centre_ ? std::size_t{0} : std::min(distance(i, centre_), (i + count_ - centre_) % count_);
+    return (i + 1) % count_ == centre_ ? std::size_t{0} : std::min(distance(i, centre_), (i + count_ - centre_) % count_);
   };
   while (bytes_ + bytes > most_bytes_) {
     auto farthest = held_.end();

@@ -48,6 +48,8 @@ class Script {
       const double end = seconds_now() + std::stod(action.arguments[0]) / 1000;
       while (seconds_now() < end && !interrupted()) pass();
     } else {
+      // An artist clicks on what is there to be seen.
+      while (action.verb == "focus-at" && session_.snapshot().loading && !interrupted()) pass();
       session_.perform(action);
     }
     say_messages();
