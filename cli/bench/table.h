@@ -34,6 +34,6 @@ struct Table {
 std::span<const Table> tables();
 
 extern const Table kNaiveTable, kChangeTable, kUnchangedTable, kKernelsTable, kVisibilityTable, kThreadsTable,
-    kSizesTable, kStarTable, kPaperTable, kStepsTable, kOrdersTable, kBatchTable;
+    kSizesTable, kStarTable, kPaperTable, kStepsTable, kOrdersTable, kBatchTable, kPreviewTable;
 
 }  // namespace pullfocus::cli::bench

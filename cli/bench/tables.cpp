@@ -3,9 +3,9 @@
 namespace pullfocus::cli::bench {
 
 std::span<const Table> tables() {
-  static const Table all[] = {kNaiveTable, kChangeTable,  kUnchangedTable,  kThreadsTable,
-                              kSizesTable, kKernelsTable, kVisibilityTable, kStarTable,
-                              kPaperTable, kStepsTable,   kOrdersTable,     kBatchTable};
+  static const Table all[] = {kNaiveTable,   kChangeTable,     kUnchangedTable, kThreadsTable, kSizesTable,
+                              kKernelsTable, kVisibilityTable, kStarTable,      kPaperTable,   kStepsTable,
+                              kOrdersTable,  kBatchTable,      kPreviewTable};
   return all;
 }
 

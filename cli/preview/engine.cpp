@@ -1,24 +1,10 @@
 #include "preview/engine.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
-#include "filter/core.h"
 #include "image/error.h"
 
 namespace pullfocus::cli::preview {
-
-namespace {
-
-constexpr double kStepMs = 16;     // between two pictures while refining: one of a 60 Hz screen
-constexpr double kFinishMs = 200;  // a rebuild may take so long where nobody drags
-
-Budget step_budget(const Wish& wish) {
-  return wish.budget.kind == Budget::Kind::time ? wish.budget : Budget{Budget::Kind::time, kStepMs};
-}
-
-}  // namespace
 
 Engine::Engine(const Shot& shot, FrameCache& cache, std::function<void()> on_shown)
     : shot_(shot), cache_(cache), on_shown_(std::move(on_shown)), shown_(std::make_shared<Shown>()) {
@@ -147,10 +133,16 @@ Engine::Next Engine::step(const Wish& wish, bool to_the_end) {
     }
     if (!has_result_ || !(coc == coc_)) {
       coc_ = coc;
-      begin(wish);
+      has_result_ = full_is_valid_ = picture_is_valid_ = false;
+      refinement_.begin(*filter_, frame_->frame, coc_, wish.budget);
+      has_result_ = true;
     } else if (!complete_ && (wish.refine || to_the_end)) {
-      refine(wish, to_the_end);
+      refinement_.go_on(*filter_, wish.budget, wish.hurried && !to_the_end,
+                        [&] { return !to_the_end && is_newer_wanted(wish.id); });
+      const View view = wish.look.view;
+      picture_is_valid_ &= view == View::input || view == View::depth || view == View::coc;
     }
+    complete_ = refinement_.is_exact();
     show(wish);
   } catch (const std::exception& error) {
     now_.problem = error.what();
@@ -166,35 +158,6 @@ Engine::Next Engine::step(const Wish& wish, bool to_the_end) {
   return !complete_ && (wish.refine || to_the_end) ? Next::more : Next::nothing;
 }
 
-void Engine::begin(const Wish& wish) {
-  filter_->set_budget(wish.budget);
-  has_result_ = full_is_valid_ = picture_is_valid_ = false;
-  now_.stats = filter_->filter(frame_->frame, coc_);
-  has_result_ = true;
-  complete_ = now_.stats.left_over == 0;
-  now_.first_ms = now_.total_ms = now_.stats.filter_ms;
-  now_.calls = 1;
-}
-
-// In pictures: each call ends for the next picture, or for a newer wish. What a call begins with takes its time too, so
-// that, unless more wishes are coming, pictures come less and less often; and a rebuild may then take longer.
-void Engine::refine(const Wish& wish, bool to_the_end) {
-  const Budget usual = step_budget(wish);
-  const bool patient = to_the_end || !wish.hurried;
-  const double step_ms =
-      patient ? std::clamp(usual.amount * std::exp2(now_.calls - 1), usual.amount, kFinishMs) : usual.amount;
-  filter_->set_budget(patient ? Budget{Budget::Kind::time, std::max(kFinishMs, usual.amount)} : usual);
-  const Stopwatch watch;
-  bool asked = false;  // every call gets on by a slice
-  now_.stats = filter_->refine([&] {
-    return std::exchange(asked, true) && (watch.ms() > step_ms || (!to_the_end && is_newer_wanted(wish.id)));
-  });
-  picture_is_valid_ &= wish.look.view == View::input || wish.look.view == View::depth || wish.look.view == View::coc;
-  complete_ = now_.stats.left_over == 0;
-  now_.total_ms += now_.stats.filter_ms;
-  ++now_.calls;
-}
-
 void Engine::make_full(const Wish& wish) {
   if (full_is_valid_ || complete_) return;
   if (!linear_) linear_ = make_linear_filter(shot_.state_window(), wish.setup->options);
@@ -207,6 +170,10 @@ void Engine::show(const Wish& wish) {
   const Frame& frame = frame_->frame;
   if (has_result_) {
     now_.exact = complete_;
+    now_.stats = refinement_.stats();
+    now_.calls = refinement_.calls();
+    now_.first_ms = refinement_.first_ms();
+    now_.total_ms = refinement_.total_ms();
     now_.left = complete_ ? LeftOver{} : filter_->left_over();
   }
   if (tone_.exposure() != look.exposure || tone_.srgb() != look.srgb) tone_ = ToneTable(look.exposure, look.srgb);

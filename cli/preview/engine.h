@@ -11,6 +11,7 @@
 
 #include "filter/filter.h"
 #include "preview/frame_cache.h"
+#include "preview/refinement.h"
 #include "preview/screen.h"
 #include "preview/state.h"
 
@@ -69,8 +70,6 @@ class Engine {
   void work();
   Next step(const Wish& wish, bool to_the_end);
   void deliver(const Take& take);
-  void begin(const Wish& wish);
-  void refine(const Wish& wish, bool to_the_end);
   void show(const Wish& wish);
   bool is_newer_wanted(std::uint64_t id) const;
   void publish(Shown shown);
@@ -92,6 +91,7 @@ class Engine {
   std::shared_ptr<const ShotFrame> frame_;
   CocFunction coc_;
   std::unique_ptr<Filter> filter_, linear_;
+  Refinement refinement_;
   bool has_result_ = false;        // filter_ holds a picture of frame_ and coc_,
   bool complete_ = false;          // and nothing is left over
   bool full_is_valid_ = false;     // linear_ holds the full solution
