@@ -24,6 +24,8 @@ void IncrementalFilter::reset() {
   if (core_.backdrop) core_.backdrop->reset();
   pending_.assign(core_.window.pixels(), 0);
   sums_.reset(core_.window.width(), core_.window.height(), core_.layers.count(), kOpaqueLanes);
+  sums_kept_ = true;
+  keep_rule_ = {};
   uncommitted_ = static_cast<std::int64_t>(core_.window.pixels());
   edges_ = 0;
   waiting_.clear();
@@ -72,16 +74,16 @@ const Stats& IncrementalFilter::filter(const Frame& frame, const CocFunction& co
     ++round_;
     prepare_result(core_.options.output_type.value_or(frame.colour.type()));
 
-    const Stopwatch detect;
-    Changes changes = find_changes(*frame_, coc, core_.kernels->coc(), core_.sanitiser, state_, thresholds(), pending_,
-                                   core_.hidden());
+    const Stopwatch detection;
+    const bool at_once = takes_all_at_once(call);
+    Changes changes = detect(coc, at_once);
     if (!changes.opaque && lanes() == kOpaqueLanes) sums_.widen();
-    const std::vector<TileWork> selected = select(changes);
+    const std::vector<TileWork> selected = at_once ? changes.tiles : select(changes);
     FilterCore::report(changes.findings, stats_);
     stats_.changed = changes.pixels;
-    stats_.detect_ms = detect.ms();
+    stats_.detect_ms = detection.ms();
     reached_ = core_.reached(changes.findings);
-    finish(call, std::move(changes.tiles), selected);
+    finish(call, std::move(changes.tiles), selected, at_once ? &changes.edges : nullptr);
   });
   stats_.filter_ms = whole.ms();
   return stats_;
@@ -96,7 +98,7 @@ const Stats& IncrementalFilter::refine(const StopRequest& stop) {
     ++round_;
     stats_.changed = count_pixels(left_);
     const std::vector<TileWork> selected = left_;
-    finish(call, std::move(left_), selected);
+    finish(call, std::move(left_), selected, nullptr);
   });
   stats_.filter_ms = whole.ms();
   return stats_;
@@ -116,16 +118,36 @@ void IncrementalFilter::left_over_importance(Plane& out) {
   core_.arena.execute([&] { importance_of(left_, pending(), core_.options.importance, out); });
 }
 
+// Without sums every change means a rebuild, so that what was committed before is not needed once it was compared with.
+bool IncrementalFilter::takes_all_at_once(const Call& call) const noexcept {
+  const auto pixels = static_cast<std::int64_t>(core_.window.pixels());
+  return !sums_kept_ && !call.can_be_stopped() && core_.options.budget.pixels(pixels) == pixels;
+}
+
+Changes IncrementalFilter::detect(const CocFunction& coc, bool and_commit) {
+  if (and_commit) {
+    return take_changes(*frame_, coc, *core_.kernels, core_.sanitiser, state_, thresholds(), core_.hidden());
+  }
+  return find_changes(*frame_, coc, core_.kernels->coc(), core_.sanitiser, state_, thresholds(), pending_,
+                      core_.hidden());
+}
+
 ChangeThresholds IncrementalFilter::thresholds() const noexcept {
   ChangeThresholds thresholds = core_.options.thresholds;
   if (core_.options.error_bound > 0) thresholds.channel = core_.options.error_bound;
   return thresholds;
 }
 
-void IncrementalFilter::finish(Call& call, std::vector<TileWork> changed, const std::vector<TileWork>& selected) {
+void IncrementalFilter::finish(Call& call, std::vector<TileWork> changed, const std::vector<TileWork>& selected,
+                               const EdgeCount* committed) {
   const Stopwatch scatter;
   const bool was_incomplete = uncommitted_ > 0;
-  const std::vector<TileWork> done = take_over(call, selected);
+  std::vector<TileWork> done;
+  if (committed == nullptr) {
+    done = take_over(call, selected);
+  } else {
+    take_committed(call, selected, *committed);
+  }
   stats_.scatter_ms = scatter.ms();
 
   const double before_resolve = call.timed() ? call.elapsed_ms() : 0;
@@ -189,6 +211,7 @@ void IncrementalFilter::show_uncommitted(const Frame& frame) {
 }
 
 void IncrementalFilter::resolve_dirty() {
+  if (!sums_kept_ && dirty_.pixels() > 0) scatter_state(true, false);  // the result has another type
   std::vector<std::int64_t> resolved(static_cast<std::size_t>(core_.window.height()));
   tbb::parallel_for(0, core_.window.height(), [&](int y) {
     const Accumulator* layers[kMostLayers];

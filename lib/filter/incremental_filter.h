@@ -9,10 +9,14 @@
 // resolve        accumulators, dirty spans      result, and what is seen behind foregrounds
 // fill           what is seen there             result, in holes
 //
+// Where frames change throughout, every one is rebuilt: detection then commits on the way, and sums are resolved and
+// forgotten, as in the linear filter, until a call needs them (see keep_rule.h). They are then made from the committed
+// state before anything is added to them.
+//
 // With bitmaps, scatter puts back what the old state hid, and pixels that begin or cease to hide others are corrected
 // before the commit; what the new state hides is taken out after it.
 //
-// The invariant, at every slice border: the accumulators equal what scattering the committed state from
+// The invariant, at every slice border: the accumulators, if kept, equal what scattering the committed state from
 // nothing would give, bit for bit. So with nothing left over the result is the linear filter's, whatever the
 // history.
 #pragma once
@@ -20,6 +24,7 @@
 #include <span>
 
 #include "filter/core.h"
+#include "filter/keep_rule.h"
 #include "filter/pace.h"
 #include "importance/select.h"
 #include "importance/slices.h"
@@ -42,9 +47,11 @@ class IncrementalFilter final : public Filter {
   void set_budget(const Budget& budget) override { core_.set_budget(budget); }
   void reset() override;
 
-  // For tests and tools: the committed state, and its sums by layer, lanes() values a pixel, row by row.
+  // For tests and tools: the committed state, and its sums by layer, lanes() values a pixel, row by row; where they
+  // were not kept they are made for the answer.
   const SourceState& committed() const noexcept { return state_; }
-  std::vector<Accumulator> accumulators(int layer = 0) const { return sums_.plane(layer); }
+  std::vector<Accumulator> accumulators(int layer = 0) const;
+  bool keeps_sums() const noexcept { return sums_kept_; }  // after the last call
   const Layers& layers() const noexcept { return core_.layers; }
   int lanes() const noexcept { return sums_.lanes(); }
   std::size_t sum_bytes() const noexcept { return sums_.bytes(); }        // of memory
@@ -57,15 +64,22 @@ class IncrementalFilter final : public Filter {
   void prepare_result(SampleType type);
   Pending pending() const;
   ChangeThresholds thresholds() const noexcept;
+  bool takes_all_at_once(const Call& call) const noexcept;
+  Changes detect(const CocFunction& coc, bool and_commit);
   std::vector<TileWork> select(const Changes& changes) const;
-  void finish(Call& call, std::vector<TileWork> changed, const std::vector<TileWork>& selected);
+  // `committed`: detection has taken over all of `selected` already, with so many edges; null: it has not.
+  void finish(Call& call, std::vector<TileWork> changed, const std::vector<TileWork>& selected,
+              const EdgeCount* committed);
   // Scatters and commits the selection, in slices if the call can be stopped; returns what was committed.
   std::vector<TileWork> take_over(Call& call, const std::vector<TileWork>& selected);
   std::vector<TileWork> take_over_in_slices(Call& call, const std::vector<TileWork>& selected);
   bool rebuild_is_cheaper(const EdgeCount& edges, const std::vector<TileWork>& selected) const noexcept;
   void add(const std::vector<LayerWork>& work, const Sources& sources);
   void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
-  void rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges);
+  void take_committed(const Call& call, const std::vector<TileWork>& selected, const EdgeCount& edges);
+  // Of the state with `selected` committed; `is_cheaper`: than an update, were the sums at hand.
+  void rebuild(const std::vector<TileWork>& selected, bool is_cheaper, const Call& call);
+  void scatter_state(bool keep, bool resolve);
   void mark_held_out(const std::vector<TileWork>& tiles);
   void make_room(const LayerWork& work);
   void resolve_dirty();
@@ -76,6 +90,8 @@ class IncrementalFilter final : public Filter {
   SourceState state_;
   std::vector<std::int16_t> pending_;
   LayerSums sums_;
+  bool sums_kept_ = true;  // false: what they hold means nothing
+  KeepRule keep_rule_;
   WaitingTimes waiting_;
   Pace pace_;
   std::uint32_t round_ = 0;                   // number of calls

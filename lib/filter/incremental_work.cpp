@@ -21,12 +21,22 @@ std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector
       return take_over_in_slices(call, selected);
     }
   }
-  if (cheaper) {
-    rebuild(selected, edges);
+  if (cheaper || !sums_kept_) {
+    edges_ += edges.committed;
+    commit(*frame_, core_.sanitiser, pending_, selected, state_);
+    rebuild(selected, cheaper, call);
   } else {
     update(selected, edges);
   }
   return selected;
+}
+
+void IncrementalFilter::take_committed(const Call& call, const std::vector<TileWork>& selected,
+                                       const EdgeCount& edges) {
+  if (selected.empty()) return;
+  const bool cheaper = rebuild_is_cheaper(edges, selected);
+  edges_ += edges.committed;
+  rebuild(selected, cheaper, call);
 }
 
 // Of a time budget, what resolving will take is kept back. The first slice is done in any case, so that calls with too
@@ -119,6 +129,8 @@ void IncrementalFilter::mark_held_out(const std::vector<TileWork>& tiles) {
 }
 
 void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges) {
+  keep_rule_.updated(!sums_kept_);
+  if (!sums_kept_) scatter_state(true, false);
   const Sources change{&state_, frame_, pending_.data(), &core_.sanitiser, core_.hidden()};
   add(by_layer(selected, core_.layers, state_, pending_.data()), change);
   if (core_.occlusion) {
@@ -143,27 +155,61 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Edge
   ++stats_.slices;
 }
 
-void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, const EdgeCount& edges) {
-  edges_ += edges.committed;
-  commit(*frame_, core_.sanitiser, pending_, selected, state_);
+// Without sums this is how changes are taken over for which an update would be cheaper, too: no frame then costs more
+// than a rebuild that keeps its sums.
+void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, bool is_cheaper, const Call& call) {
   if (core_.occlusion) core_.occlusion->take(*frame_, depth_kind_, state_, selected);
-  sums_.begin_anew();
-  if (core_.backdrop) core_.backdrop->begin_anew();
+  // Pixels never committed will be resolved once more, and no time budget foresees making sums.
+  bool keep = uncommitted_ > 0 || call.timed();
+  if (is_cheaper) {
+    keep |= keep_rule_.keeps();
+    keep_rule_.rebuilt(keep);
+  } else {
+    keep_rule_.updated(true);
+    keep = true;
+  }
+  scatter_state(keep, true);
+  dirty_.reset(core_.window.width(), core_.window.height());
+  stats_.updated += count_pixels(selected);
+  stats_.resolved += static_cast<std::int64_t>(core_.window.pixels());
+  stats_.mode = is_cheaper ? ScatterMode::rebuild : ScatterMode::incremental;
+  ++stats_.slices;
+}
+
+void IncrementalFilter::scatter_state(bool keep, bool resolve) {
   Sources sources{&state_};
   sources.occlusion = core_.hidden();
   const std::vector<LayerWork> work = by_layer(whole_state(state_), core_.layers, state_, nullptr);
-  for (const LayerWork& layer : work) make_room(layer);
+  if (resolve && core_.backdrop) core_.backdrop->begin_anew();
+  if (keep) {
+    sums_.begin_anew();
+    for (const LayerWork& layer : work) make_room(layer);
+  }
   core_.scatter.run(work, sources, lanes(), core_.threads, [&](int y, std::span<const LayerRow> rows) {
-    sums_.replace_row(y, rows);
-    resolve_rows(rows, lanes(), y, state_.colour, result_, core_.layers.near(), core_.behind());
+    if (keep) sums_.replace_row(y, rows);
+    if (resolve) resolve_rows(rows, lanes(), y, state_.colour, result_, core_.layers.near(), core_.behind());
   });
-  sums_.end_anew();
-  dirty_.reset(core_.window.width(), core_.window.height());
+  if (keep) sums_.end_anew();
+  sums_kept_ = keep;
   stats_.edges += edges_;
-  stats_.updated += count_pixels(selected);
-  stats_.resolved += static_cast<std::int64_t>(core_.window.pixels());
-  stats_.mode = ScatterMode::rebuild;
-  ++stats_.slices;
+}
+
+std::vector<Accumulator> IncrementalFilter::accumulators(int layer) const {
+  if (sums_kept_) return sums_.plane(layer);
+  const int width = core_.window.width(), height = core_.window.height();
+  const auto columns = static_cast<std::size_t>(width) * static_cast<std::size_t>(lanes());
+  std::vector<Accumulator> plane(columns * static_cast<std::size_t>(height));
+  Sources sources{&state_};
+  sources.occlusion = core_.hidden();
+  Scatter scatter(*core_.kernels, width, height);
+  scatter.run(by_layer(whole_state(state_), core_.layers, state_, nullptr), sources, lanes(), core_.threads,
+              [&](int y, std::span<const LayerRow> rows) {
+                for (const LayerRow& row : rows) {
+                  if (row.layer == layer)
+                    std::copy_n(row.values, columns, &plane[static_cast<std::size_t>(y) * columns]);
+                }
+              });
+  return plane;
 }
 
 }  // namespace pullfocus

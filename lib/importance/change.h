@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "importance/edge_count.h"
 #include "importance/importance.h"
 #include "importance/ingest.h"
 #include "scatter/kernel_table.h"
@@ -19,6 +20,7 @@ struct Changes {
   std::vector<TileWork> tiles;  // tiles with changed pixels, in grid order
   std::int64_t pixels = 0;
   bool opaque = true;  // every changed pixel has an alpha of exactly 1
+  EdgeCount edges;     // of take_changes() only
   FrameFindings findings;
 };
 
@@ -31,6 +33,11 @@ struct Changes {
 Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
                      const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending,
                      const Occlusion* occlusion = nullptr);
+
+// The same, and takes all that it finds over into `state` on the way: one pass over the frame in place of three
+// (find_changes(), count_edges() and commit()), for calls that will take every change over in any case.
+Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, const Sanitiser& sanitiser,
+                     SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion = nullptr);
 
 // Takes over the whole frame into `state`, without looking at what it held. Fills `max_index` with the
 // largest |index| of every tile.

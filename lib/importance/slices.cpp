@@ -3,7 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdlib>
+
+#include "importance/tile_row.h"
 
 namespace pullfocus {
 
@@ -12,35 +13,13 @@ namespace {
 // What a tile costs beside its edges, in edges.
 constexpr double kTileEdges = 4000;
 
-// Edges that taking over one pixel writes.
-EdgeCount edges_of_pixel(const Pending& pending, std::size_t at) noexcept {
-  const std::int16_t was = pending.state.index[at], is = pending.index[at];
-  const std::int64_t before = pending.kernels.edge_count(was), after = pending.kernels.edge_count(is);
-  if (was == is) return {after, 0, 0};
-  const bool near = is_source(was) && is_source(is) && std::abs(is - was) <= KernelTable::kFarthestMove;
-  return {before + after, near ? before + after : 0, after - before};
-}
-
-std::size_t position(const TileGrid& grid, int x, int y) noexcept {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
-}
-
 EdgeCount edges_of_tile(const TileGrid& grid, const TileWork& work, const Pending& pending) noexcept {
   EdgeCount count;
-  const auto add = [&](std::size_t at) {
-    const EdgeCount pixel = edges_of_pixel(pending, at);
-    count.written += pixel.written;
-    count.moved += pixel.moved;
-    count.committed += pixel.committed;
-  };
   for (int i = 0; i < kTileHeight; ++i) {
     if (work.mask.rows[i] == 0) continue;
     const std::size_t first = position(grid, grid.x(work.tile), grid.y(work.tile) + i);
-    if (work.mask.rows[i] == first_pixels(kTileWidth)) {
-      for (std::size_t p = 0; p < kTileWidth; ++p) add(first + p);
-    } else {
-      for_each_pixel(work.mask.rows[i], [&](int p) { add(first + static_cast<std::size_t>(p)); });
-    }
+    count.add(edges_of_row(pending.kernels, &pending.state.index[first], &pending.index[first], work.mask.rows[i],
+                           grid.tile_width(work.tile)));
   }
   return count;
 }
@@ -54,11 +33,7 @@ EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending
     for (std::size_t t = range.begin(); t < range.end(); ++t) counts[t] = edges_of_tile(grid, tiles[t], pending);
   });
   EdgeCount sum;
-  for (const EdgeCount& count : counts) {
-    sum.written += count.written;
-    sum.moved += count.moved;
-    sum.committed += count.committed;
-  }
+  for (const EdgeCount& count : counts) sum.add(count);
   return sum;
 }
 
@@ -98,11 +73,10 @@ SliceQueue::SliceQueue(const std::vector<TileWork>& tiles, const Pending& pendin
 
 std::int64_t SliceQueue::row_edges(const TileWork& work, int row) const noexcept {
   const TileGrid grid = grid_of(pending_.frame.window());
-  std::int64_t edges = 0;
   const std::size_t first = position(grid, grid.x(work.tile), grid.y(work.tile) + row);
-  for_each_pixel(work.mask.rows[row],
-                 [&](int p) { edges += edges_of_pixel(pending_, first + static_cast<std::size_t>(p)).written; });
-  return edges;
+  return edges_of_row(pending_.kernels, &pending_.state.index[first], &pending_.index[first], work.mask.rows[row],
+                      grid.tile_width(work.tile))
+      .written;
 }
 
 std::vector<TileWork> SliceQueue::next(std::int64_t most_edges) {

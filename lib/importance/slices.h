@@ -4,17 +4,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "importance/edge_count.h"
 #include "importance/order.h"
 #include "importance/waiting.h"
 
 namespace pullfocus {
 
-// Edges to write for a set of pixels, and what the set changes of the edge count of the committed state.
-struct EdgeCount {
-  std::int64_t written = 0;    // one scatter for a change of colour, two for a change of index
-  std::int64_t moved = 0;      // of them, those of a change to a near index, which writes both kernels in one pass
-  std::int64_t committed = 0;  // difference of the committed state's own edges
-};
+// What taking `tiles` over writes.
 EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending);
 
 // Hands out a selection in slices, whole tiles in order of importance: for Order::gain by the sum of priorities per

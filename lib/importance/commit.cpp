@@ -1,0 +1,80 @@
+// Taking frames over into the committed state.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "importance/change.h"
+#include "importance/tile_row.h"
+
+namespace pullfocus {
+
+FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
+                         SourceState& state, std::vector<TileWork>& tiles, bool& opaque) {
+  state.may_hold_out = frame.has_mask();
+  const TileGrid grid = grid_of(frame.window());
+  tiles.resize(static_cast<std::size_t>(grid.count()));
+  std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
+  dispatch(frame.colour.type(), [&]<SampleType type>() {
+    const SegmentIngest<type> ingest(frame, coc, table, sanitiser);
+    const auto segment = [&](int x, int y, int n, TileRow& row) {
+      std::int16_t* index = &state.index[position(grid, x, y)];
+      Pixel<type>* pixels = pixels_of<type>(state.colour, x, y);
+      ingest.indices(x, y, n, index, row.findings);
+      ingest.sanitised(x, y, n, pixels, row.findings);
+      row.opaque = row.opaque && are_opaque<type>(pixels, n);
+      int largest = 0;
+      for (int i = 0; i < n; ++i) largest = std::max(largest, reach_index(index[i]));
+      return largest;
+    };
+    tbb::parallel_for(0, grid.rows(), [&](int r) {
+      TileRow& row = rows[static_cast<std::size_t>(r)];
+      for (int c = 0; c < grid.columns(); ++c) {
+        const int tile = r * grid.columns() + c;
+        TileWork& work = tiles[static_cast<std::size_t>(tile)];
+        work = {tile, 0, {}};
+        for (int i = 0; i < grid.tile_height(tile); ++i) {
+          work.mask.rows[i] = first_pixels(grid.tile_width(tile));
+          work.max_index =
+              std::max(work.max_index, segment(grid.x(tile), grid.y(tile) + i, grid.tile_width(tile), row));
+        }
+      }
+    });
+  });
+  FrameFindings findings;
+  opaque = true;
+  for (const TileRow& row : rows) {
+    findings.add(row.findings);
+    opaque &= row.opaque;
+  }
+  return findings;
+}
+
+void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<std::int16_t>& pending,
+            const std::vector<TileWork>& tiles, SourceState& state) {
+  state.may_hold_out |= frame.has_mask();
+  const TileGrid grid = grid_of(state.colour.window());
+  dispatch(frame.colour.type(), [&]<SampleType type>() {
+    const auto commit_tile = [&](const TileWork& work) {
+      for (int i = 0; i < kTileHeight; ++i) {
+        if (work.mask.rows[i] == 0) continue;
+        const int x = grid.x(work.tile), y = grid.y(work.tile) + i;
+        const Pixel<type>* in = pixels_of<type>(frame.colour, x, y);
+        Pixel<type>* out = pixels_of<type>(state.colour, x, y);
+        if (work.mask.rows[i] == first_pixels(kTileWidth) && all_sane<type>(sanitiser, in, kTileWidth)) {
+          std::copy_n(in, kTileWidth, out);
+          std::copy_n(&pending[position(grid, x, y)], kTileWidth, &state.index[position(grid, x, y)]);
+          continue;
+        }
+        for_each_pixel(work.mask.rows[i], [&](int p) {
+          out[p] = sanitiser(in[p]);
+          state.index[position(grid, x + p, y)] = pending[position(grid, x + p, y)];
+        });
+      }
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), kTilesTogether), [&](const auto& range) {
+      for (std::size_t t = range.begin(); t < range.end(); ++t) commit_tile(tiles[t]);
+    });
+  });
+}
+
+}  // namespace pullfocus

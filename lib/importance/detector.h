@@ -1,0 +1,140 @@
+// Finding what differs from the committed state, row of tiles by row of tiles.
+#pragma once
+
+#include <algorithm>
+
+#include "importance/distance.h"
+#include "importance/importance.h"
+#include "importance/tile_row.h"
+#include "scatter/occlusion.h"
+
+namespace pullfocus {
+
+// One row of a tile, from (x, y) of the window's corner on, n pixels of it in the picture.
+template <SampleType type>
+struct ChangedRow {
+  int x, y, n;
+  std::uint64_t changed;      // its changed pixels
+  const Pixel<type>* pixels;  // of the frame, sanitised
+  const std::int16_t* index;  // of the frame
+};
+
+template <SampleType type>
+class Detector {
+ public:
+  using Changed = ChangedRow<type>;
+
+  // All references must outlive this.
+  Detector(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
+           const SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion)
+      : ingest_(frame, coc, table, sanitiser),
+        table_(table),
+        state_(state),
+        thresholds_(thresholds),
+        frame_(frame),
+        has_mask_(frame.has_mask()),
+        kind_(coc.kind),
+        occlusion_(occlusion),
+        grid_(grid_of(state.colour.window())) {}
+
+  // Tiles `first` .. `first + grid.columns() - 1`, which are one row of tiles. Goes by rows of pixels, not by tiles:
+  // memory is read in one stream. Calls take(ChangedRow) for every tile row with changed pixels.
+  template <typename Take>
+  void run(int first, TileRow& row, const Take& take) const {
+    row.tiles.resize(static_cast<std::size_t>(grid_.columns()));
+    for (int c = 0; c < grid_.columns(); ++c) row.tiles[static_cast<std::size_t>(c)].tile = first + c;
+    for (int i = 0; i < grid_.tile_height(first); ++i) {
+      for (TileWork& work : row.tiles) {
+        work.mask.rows[i] =
+            segment(grid_.x(work.tile), grid_.y(work.tile) + i, grid_.tile_width(work.tile), work.max_index, row, take);
+      }
+    }
+    std::erase_if(row.tiles, [](const TileWork& work) { return !work.mask.any(); });
+    for (const TileWork& work : row.tiles) row.pixels += work.mask.count();
+  }
+
+ private:
+  template <typename Take>
+  std::uint64_t segment(int x, int y, int n, int& max_index, TileRow& row, const Take& take) const {
+    std::int16_t index[kTileWidth];
+    const std::int16_t* committed = &state_.index[position(grid_, x, y)];
+    const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
+    const SegmentDifference difference = ingest_.compare(x, y, n, old, committed, index, row.findings);
+    // What was committed is sane, so equal bits are equal sane colours.
+    const std::uint64_t key = occlusion_ == nullptr ? 0 : changed_keys(index, x, y, n);
+    if ((difference.index | difference.colour | key) == 0) return 0;
+    return changed_pixels(x, y, n, difference, key, index, max_index, row, take);
+  }
+
+  // Apart, so that segments without any change, most of all, do not pay for it.
+  template <typename Take>
+  [[gnu::noinline]] std::uint64_t changed_pixels(int x, int y, int n, const SegmentDifference& difference,
+                                                 std::uint64_t key, const std::int16_t* index, int& max_index,
+                                                 TileRow& row, const Take& take) const {
+    const std::int16_t* committed = &state_.index[position(grid_, x, y)];
+    const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
+    Pixel<type> pixels[kTileWidth];
+    const bool sane = ingest_.sanitised(x, y, n, pixels, row.findings);
+    std::uint64_t changed = difference.index | key;
+    if (sane) {
+      changed |= difference.colour;
+    } else {
+      for_each_pixel(difference.colour, [&](int i) { changed |= std::uint64_t{!(pixels[i] == old[i])} << i; });
+    }
+    if (thresholds_.any()) changed = beyond_thresholds(changed, key, pixels, old, index, committed);
+    if (changed == 0) return 0;
+    if (row.opaque && !are_opaque<type>(pixels, n)) {
+      for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
+    }
+    max_index = std::max(max_index, reach_of(changed, committed, index));
+    take(Changed{x, y, n, changed, pixels, index}, row);
+    return changed;
+  }
+
+  // The largest |index| of the changed pixels, before and after.
+  static int reach_of(std::uint64_t changed, const std::int16_t* before, const std::int16_t* after) noexcept {
+    if (changed == first_pixels(kTileWidth)) {
+      IndexBounds bounds = bounds_of_tile_row(before);
+      bounds.widen(bounds_of_tile_row(after));
+      if (is_source(static_cast<std::int16_t>(bounds.least))) return bounds.largest();
+    }
+    int reach = 0;
+    for_each_pixel(changed, [&](int i) { reach = std::max({reach, reach_index(before[i]), reach_index(after[i])}); });
+    return reach;
+  }
+
+  std::uint64_t changed_keys(const std::int16_t* index, int x, int y, int n) const noexcept {
+    return occlusion_->changed_keys(kind_, frame_.depth.row(frame_.window().y0 + y) + x, has_mask_ ? index : nullptr, x,
+                                    y, n);
+  }
+
+  std::uint64_t beyond_thresholds(std::uint64_t changed, std::uint64_t key, const Pixel<type>* is,
+                                  const Pixel<type>* was, const std::int16_t* index,
+                                  const std::int16_t* committed) const {
+    std::uint64_t beyond = 0;
+    for_each_pixel(changed, [&](int i) {
+      const bool small = (colour_distance<type>(is[i], was[i]) <= thresholds_.rgb &&
+                          alpha_distance<type>(is[i], was[i]) <= thresholds_.rgb) ||
+                         channel_distance<type>(is[i], was[i]) <= thresholds_.channel;
+      const bool same_depth = (key >> i & 1) == 0 || thresholds_.coc_px > 0;
+      const bool near_enough =
+          index[i] == committed[i] || (is_source(index[i]) && is_source(committed[i]) &&
+                                       coc_distance(table_, index[i], committed[i]) <= thresholds_.coc_px);
+      const bool exempt = small && same_depth && near_enough;
+      beyond |= std::uint64_t{!exempt} << i;
+    });
+    return beyond;
+  }
+
+  const SegmentIngest<type> ingest_;
+  const CocTable& table_;
+  const SourceState& state_;
+  const ChangeThresholds& thresholds_;
+  const Frame& frame_;
+  const bool has_mask_;
+  const DepthKind kind_;
+  const Occlusion* occlusion_;
+  const TileGrid grid_;
+};
+
+}  // namespace pullfocus

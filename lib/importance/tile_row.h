@@ -1,0 +1,49 @@
+// Frames and states by rows of tiles: what detection and commit share.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "importance/edge_count.h"
+#include "importance/ingest.h"
+#include "importance/tile_sets.h"
+
+namespace pullfocus {
+
+template <SampleType type>
+bool is_opaque(const Pixel<type>& pixel) noexcept {
+  return pixel.rgba[3] == (type == SampleType::half ? 0x3c00u : 0x3f800000u);
+}
+
+template <SampleType type>
+bool are_opaque(const Pixel<type>* pixels, int n) noexcept {
+  bool all = true;
+  for (int i = 0; i < n; ++i) all &= is_opaque<type>(pixels[i]);
+  return all;
+}
+
+inline std::size_t position(const TileGrid& grid, int x, int y) noexcept {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+}
+
+// Of the pixel x, y from the window's corner, and those to its right.
+template <SampleType type>
+Pixel<type>* pixels_of(ColourImage& image, int x, int y) noexcept {
+  return reinterpret_cast<Pixel<type>*>(image.pixel(image.window().x0 + x, image.window().y0 + y));
+}
+
+template <SampleType type>
+const Pixel<type>* pixels_of(const ColourImage& image, int x, int y) noexcept {
+  return pixels_of<type>(const_cast<ColourImage&>(image), x, y);
+}
+
+// One row of tiles: what its task found.
+struct TileRow {
+  std::vector<TileWork> tiles;
+  std::int64_t pixels = 0;
+  bool opaque = true;
+  EdgeCount edges;
+  FrameFindings findings;
+};
+
+}  // namespace pullfocus
