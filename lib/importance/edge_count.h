@@ -1,13 +1,10 @@
 // How many run edges a change writes.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 
 #include "image/tiles.h"
 #include "scatter/kernel_table.h"
-#include "scatter/state.h"
 
 namespace pullfocus {
 
@@ -24,26 +21,9 @@ struct EdgeCount {
   }
 };
 
-// Of one pixel that goes from a signed index to another, or changes its colour alone.
-inline EdgeCount edges_of_change(const KernelTable& kernels, std::int16_t was, std::int16_t is) noexcept {
-  const std::int64_t before = kernels.edge_count(was), after = kernels.edge_count(is);
-  if (was == is) return {after, 0, 0};
-  const bool near = is_source(was) && is_source(is) && std::abs(is - was) <= KernelTable::kFarthestMove;
-  return {before + after, near ? before + after : 0, after - before};
-}
-
-// Of the pixels `mask` of a tile row of n pixels.
-inline EdgeCount edges_of_row(const KernelTable& kernels, const std::int16_t* was, const std::int16_t* is,
-                              std::uint64_t mask, int n) noexcept {
-  EdgeCount count;
-  if (mask != first_pixels(n)) {
-    for_each_pixel(mask, [&](int p) { count.add(edges_of_change(kernels, was[p], is[p])); });
-  } else if (std::equal(was, was + n, is)) {
-    for (int p = 0; p < n; ++p) count.written += kernels.edge_count(is[p]);
-  } else {
-    for (int p = 0; p < n; ++p) count.add(edges_of_change(kernels, was[p], is[p]));
-  }
-  return count;
-}
+// Of the pixels `mask` of a tile row of n pixels (n <= kTileWidth, no bit of the mask beyond): each goes from a signed
+// index to another, or changes its colour alone. SIMD with run-time dispatch.
+EdgeCount edges_of_row(const KernelTable& kernels, const std::int16_t* was, const std::int16_t* is, std::uint64_t mask,
+                       int n) noexcept;
 
 }  // namespace pullfocus

@@ -50,6 +50,7 @@ class KernelTable {
     const auto index = static_cast<std::size_t>(std::abs(signed_index));
     return edges_[std::min(index, edges_.size() - 1)];
   }
+  std::span<const int> edge_counts() const noexcept { return edges_; }  // by |index|, and a 0 after the last
   bool symmetric() const noexcept { return symmetric_; }  // every kernel is its own mirror image in x and in y
   // Pixels that a flat kernel of the same spread would cover: 1 / sum of squared weights; >= 1.
   double area(int signed_index) const noexcept { return areas_[static_cast<std::size_t>(std::abs(signed_index))]; }
