@@ -56,7 +56,7 @@ struct TileMask {
   }
   int count() const noexcept {
     int n = 0;
-    for (const std::uint64_t row : rows) n += std::popcount(row);
+    for (const std::uint64_t row : rows) n += ~row == 0 ? 64 : std::popcount(row);  // the latter may be a call
     return n;
   }
 };

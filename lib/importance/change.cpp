@@ -41,6 +41,7 @@ Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable&
     const Detector<type> detector(frame, coc, table, sanitiser, state, thresholds, occlusion);
     return joined(detect(detector, grid, [&](const ChangedRow<type>& found, TileRow&) {
       std::copy_n(found.index, found.n, &pending[position(grid, found.x, found.y)]);
+      return std::max(reach_of(found.changed, found.was), reach_of(found.changed, found.index));
     }));
   });
 }
@@ -55,7 +56,8 @@ Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTab
       std::int16_t* const index = &state.index[position(grid, found.x, found.y)];
       Pixel<type>* const colours = pixels_of<type>(state.colour, found.x, found.y);
       row.edges.add(edges_of_row(kernels, index, found.index, found.changed, found.n));
-      if (found.changed == first_pixels(found.n)) {
+      // Without thresholds, what did not change is the same in both.
+      if (found.changed == first_pixels(found.n) || !thresholds.any()) {
         std::copy_n(found.index, found.n, index);
         std::copy_n(found.pixels, found.n, colours);
       } else {
@@ -64,6 +66,7 @@ Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTab
           colours[p] = found.pixels[p];
         });
       }
+      return found.n == kTileWidth ? reach_of(~std::uint64_t{0}, index) : reach_of(found.changed, index);
     }));
   });
 }

@@ -36,6 +36,7 @@ Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable&
 
 // The same, and takes all that it finds over into `state` on the way: one pass over the frame in place of three
 // (find_changes(), count_edges() and commit()), for calls that will take every change over in any case.
+// The tiles' `max_index` covers what is committed now, no longer what was before.
 Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, const Sanitiser& sanitiser,
                      SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion = nullptr);
 

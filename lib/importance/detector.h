@@ -17,13 +17,23 @@ struct ChangedRow {
   std::uint64_t changed;      // its changed pixels
   const Pixel<type>* pixels;  // of the frame, sanitised
   const std::int16_t* index;  // of the frame
+  const std::int16_t* was;    // committed
 };
+
+// The largest |index| of the changed pixels.
+inline int reach_of(std::uint64_t changed, const std::int16_t* index) noexcept {
+  if (changed == first_pixels(kTileWidth)) {
+    const IndexBounds bounds = bounds_of_tile_row(index);
+    if (is_source(static_cast<std::int16_t>(bounds.least))) return bounds.largest();
+  }
+  int reach = 0;
+  for_each_pixel(changed, [&](int i) { reach = std::max(reach, reach_index(index[i])); });
+  return reach;
+}
 
 template <SampleType type>
 class Detector {
  public:
-  using Changed = ChangedRow<type>;
-
   // All references must outlive this.
   Detector(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
            const SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion)
@@ -38,7 +48,8 @@ class Detector {
         grid_(grid_of(state.colour.window())) {}
 
   // Tiles `first` .. `first + grid.columns() - 1`, which are one row of tiles. Goes by rows of pixels, not by tiles:
-  // memory is read in one stream. Calls take(ChangedRow) for every tile row with changed pixels.
+  // memory is read in one stream. Calls take(ChangedRow, row) for every row of a
+  // tile with changed pixels; what it returns, the largest |index| that matters there, ends up in the tile.
   template <typename Take>
   void run(int first, TileRow& row, const Take& take) const {
     row.tiles.resize(static_cast<std::size_t>(grid_.columns()));
@@ -86,21 +97,8 @@ class Detector {
     if (row.opaque && !are_opaque<type>(pixels, n)) {
       for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
     }
-    max_index = std::max(max_index, reach_of(changed, committed, index));
-    take(Changed{x, y, n, changed, pixels, index}, row);
+    max_index = std::max(max_index, take(ChangedRow<type>{x, y, n, changed, pixels, index, committed}, row));
     return changed;
-  }
-
-  // The largest |index| of the changed pixels, before and after.
-  static int reach_of(std::uint64_t changed, const std::int16_t* before, const std::int16_t* after) noexcept {
-    if (changed == first_pixels(kTileWidth)) {
-      IndexBounds bounds = bounds_of_tile_row(before);
-      bounds.widen(bounds_of_tile_row(after));
-      if (is_source(static_cast<std::int16_t>(bounds.least))) return bounds.largest();
-    }
-    int reach = 0;
-    for_each_pixel(changed, [&](int i) { reach = std::max({reach, reach_index(before[i]), reach_index(after[i])}); });
-    return reach;
   }
 
   std::uint64_t changed_keys(const std::int16_t* index, int x, int y, int n) const noexcept {
