@@ -211,7 +211,15 @@ void IncrementalFilter::show_uncommitted(const Frame& frame) {
 }
 
 void IncrementalFilter::resolve_dirty() {
-  if (!sums_kept_ && dirty_.pixels() > 0) scatter_state(true, false);  // the result has another type
+  if (dirty_.pixels() > 0) {
+    if (!sums_kept_) scatter_state(true, false);  // the result has another type
+    resolve_rows_of_sums();
+  }
+  if (core_.backdrop) core_.backdrop->fill(result_);
+  show_held_out(state_, result_);
+}
+
+void IncrementalFilter::resolve_rows_of_sums() {
   std::vector<std::int64_t> resolved(static_cast<std::size_t>(core_.window.height()));
   tbb::parallel_for(0, core_.window.height(), [&](int y) {
     const Accumulator* layers[kMostLayers];
@@ -227,8 +235,6 @@ void IncrementalFilter::resolve_dirty() {
       resolved[static_cast<std::size_t>(y)] += x1 - x0;
     });
   });
-  if (core_.backdrop) core_.backdrop->fill(result_);
-  show_held_out(state_, result_);
   stats_.resolved += std::accumulate(resolved.begin(), resolved.end(), std::int64_t{0});
 }
 

@@ -83,6 +83,7 @@ class IncrementalFilter final : public Filter {
   void mark_held_out(const std::vector<TileWork>& tiles);
   void make_room(const LayerWork& work);
   void resolve_dirty();
+  void resolve_rows_of_sums();
   void count_uncommitted(const std::vector<TileWork>& committed);
   void show_uncommitted(const Frame& frame);
 
