@@ -41,7 +41,7 @@ Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable&
     const Detector<type> detector(frame, coc, table, sanitiser, state, thresholds, occlusion);
     return joined(detect(detector, grid, [&](const ChangedRow<type>& found, TileRow&) {
       std::copy_n(found.index, found.n, &pending[position(grid, found.x, found.y)]);
-      return std::max(reach_of(found.changed, found.was), reach_of(found.changed, found.index));
+      return reach_of(found, found.index, reach_of(found, found.was, found.max_index));
     }));
   });
 }
@@ -66,7 +66,7 @@ Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTab
           colours[p] = found.pixels[p];
         });
       }
-      return found.n == kTileWidth ? reach_of(~std::uint64_t{0}, index) : reach_of(found.changed, index);
+      return reach_of(found, found.index, found.max_index);
     }));
   });
 }

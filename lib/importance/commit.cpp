@@ -2,11 +2,18 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "importance/change.h"
 #include "importance/tile_row.h"
 
 namespace pullfocus {
+
+namespace {
+
+constexpr int kMany = kTileWidth / 4;  // pixels of a tile row to look at the whole of it for
+
+}  // namespace
 
 FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
                          SourceState& state, std::vector<TileWork>& tiles, bool& opaque) {
@@ -54,21 +61,26 @@ void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<st
   state.may_hold_out |= frame.has_mask();
   const TileGrid grid = grid_of(state.colour.window());
   dispatch(frame.colour.type(), [&]<SampleType type>() {
+    const auto commit_row = [&](int x, int y, int n, std::uint64_t mask) {
+      const Pixel<type>* in = pixels_of<type>(frame.colour, x, y);
+      Pixel<type>* out = pixels_of<type>(state.colour, x, y);
+      const std::int16_t* from = &pending[position(grid, x, y)];
+      std::int16_t* to = &state.index[position(grid, x, y)];
+      if (mask == first_pixels(n) && all_sane<type>(sanitiser, in, n)) {
+        std::copy_n(in, n, out);
+        std::copy_n(from, n, to);
+        return;
+      }
+      const bool sane = std::popcount(mask) > kMany && all_sane<type>(sanitiser, in, n);
+      for_each_pixel(mask, [&](int p) {
+        out[p] = sane ? in[p] : sanitiser(in[p]);
+        to[p] = from[p];
+      });
+    };
     const auto commit_tile = [&](const TileWork& work) {
+      const int x = grid.x(work.tile), y = grid.y(work.tile), n = grid.tile_width(work.tile);
       for (int i = 0; i < kTileHeight; ++i) {
-        if (work.mask.rows[i] == 0) continue;
-        const int x = grid.x(work.tile), y = grid.y(work.tile) + i;
-        const Pixel<type>* in = pixels_of<type>(frame.colour, x, y);
-        Pixel<type>* out = pixels_of<type>(state.colour, x, y);
-        if (work.mask.rows[i] == first_pixels(kTileWidth) && all_sane<type>(sanitiser, in, kTileWidth)) {
-          std::copy_n(in, kTileWidth, out);
-          std::copy_n(&pending[position(grid, x, y)], kTileWidth, &state.index[position(grid, x, y)]);
-          continue;
-        }
-        for_each_pixel(work.mask.rows[i], [&](int p) {
-          out[p] = sanitiser(in[p]);
-          state.index[position(grid, x + p, y)] = pending[position(grid, x + p, y)];
-        });
+        if (work.mask.rows[i] != 0) commit_row(x, y + i, n, work.mask.rows[i]);
       }
     };
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), kTilesTogether), [&](const auto& range) {

@@ -18,17 +18,21 @@ struct ChangedRow {
   const Pixel<type>* pixels;  // of the frame, sanitised
   const std::int16_t* index;  // of the frame
   const std::int16_t* was;    // committed
+  int max_index;              // of the tile's rows so far
 };
 
-// The largest |index| of the changed pixels.
-inline int reach_of(std::uint64_t changed, const std::int16_t* index) noexcept {
-  if (changed == first_pixels(kTileWidth)) {
+// The larger one of `least` and the largest |index| of the changed pixels, of which `index` holds the row.
+template <SampleType type>
+int reach_of(const ChangedRow<type>& row, const std::int16_t* index, int least) noexcept {
+  if (row.n == kTileWidth) {
     const IndexBounds bounds = bounds_of_tile_row(index);
-    if (is_source(static_cast<std::int16_t>(bounds.least))) return bounds.largest();
+    if (is_source(static_cast<std::int16_t>(bounds.least))) {
+      if (bounds.largest() <= least) return least;
+      if (row.changed == first_pixels(kTileWidth)) return bounds.largest();
+    }
   }
-  int reach = 0;
-  for_each_pixel(changed, [&](int i) { reach = std::max(reach, reach_index(index[i])); });
-  return reach;
+  for_each_pixel(row.changed, [&](int i) { least = std::max(least, reach_index(index[i])); });
+  return least;
 }
 
 template <SampleType type>
@@ -49,7 +53,7 @@ class Detector {
 
   // Tiles `first` .. `first + grid.columns() - 1`, which are one row of tiles. Goes by rows of pixels, not by tiles:
   // memory is read in one stream. Calls take(ChangedRow, row) for every row of a
-  // tile with changed pixels; what it returns, the largest |index| that matters there, ends up in the tile.
+  // tile with changed pixels, which returns the tile's max_index with that row in it.
   template <typename Take>
   void run(int first, TileRow& row, const Take& take) const {
     row.tiles.resize(static_cast<std::size_t>(grid_.columns()));
@@ -97,7 +101,7 @@ class Detector {
     if (row.opaque && !are_opaque<type>(pixels, n)) {
       for_each_pixel(changed, [&](int i) { row.opaque &= is_opaque<type>(pixels[i]); });
     }
-    max_index = std::max(max_index, take(ChangedRow<type>{x, y, n, changed, pixels, index, committed}, row));
+    max_index = take(ChangedRow<type>{x, y, n, changed, pixels, index, committed, max_index}, row);
     return changed;
   }
 
