@@ -98,7 +98,6 @@ TEST(SumsOnDemand, EqualAScatterOfTheCommittedStateAfterAnyHistoryOfFullAndSmall
     const auto kernels = std::make_shared<const KernelTable>(options.kernel);
     FilterOptions some = options;
     if (seed % 6 == 5) some.budget.amount = 85;  // enough for rebuilds
-    if (seed % 6 == 4) some.thresholds.rgb = 0.05;
     IncrementalFilter filter(window, some, kernels);
     LinearFilter linear(window, options, kernels);
     RestlessShot shot(window, seed);
@@ -107,7 +106,10 @@ TEST(SumsOnDemand, EqualAScatterOfTheCommittedStateAfterAnyHistoryOfFullAndSmall
       if (frame > 0) shot.step();
       const bool kept = filter.keeps_sums();
       const auto how = shot.random()() % 16;
-      if (how == 0) filter.reset();
+      if (how == 0) {
+        filter.reset();
+        ASSERT_TRUE(filter.keeps_sums());
+      }
       int slices = static_cast<int>(shot.random()() % 4);
       const StopRequest stop = how == 1 ? StopRequest([&] { return slices-- == 0; }) : StopRequest();
       const Stats stats = filter.filter(shot.frame(), shot.coc(), stop);
@@ -121,7 +123,7 @@ TEST(SumsOnDemand, EqualAScatterOfTheCommittedStateAfterAnyHistoryOfFullAndSmall
         ASSERT_NO_FATAL_FAILURE(expect_invariant(filter, *kernels, options));
       }
       if (how == 2) filter.refine();
-      if (some.thresholds.any() || (how != 2 && stats.left_over > 0)) continue;
+      if (how != 2 && stats.left_over > 0) continue;
       linear.filter(shot.frame(), shot.coc());
       ASSERT_EQ(test::difference(filter.result(), linear.result()), "");
     }
@@ -137,6 +139,7 @@ TEST(SumsOnDemand, ModeAndCountsAreThoseOfAFilterThatAlwaysKeepsItsSums) {
     FilterOptions options = options_for(seed);
     const Window& window = windows[seed % 4];
     const auto kernels = std::make_shared<const KernelTable>(options.kernel);
+    if (seed % 3 == 0) options.thresholds.rgb = 0.1;
     IncrementalFilter filter(window, options, kernels);
     options.budget = {Budget::Kind::time, 1e8};  // under a time budget sums are kept
     options.clock = [] { return 0.; };
@@ -216,14 +219,50 @@ TEST_F(KeptSums, AreMadeForASmallChangeAtTheWorkOfOneRebuild) {
 }
 
 TEST_F(KeptSums, AreMadeBeforeTheFirstSliceOfACallThatCanBeStopped) {
-  for (int frame = 0; frame < 3; ++frame) filter(full_change());
-  const Frame next = full_change();
+  for (int frame = 0; frame < 2; ++frame) filter(full_change());
+  const Frame last = full_change(), next = full_change();
+  filter(last);
   EXPECT_EQ(filter(next, [] { return true; }).edges, 0);
   EXPECT_FALSE(filter_.keeps_sums());
   ASSERT_TRUE(test::invariant_holds(filter_, *kernels_));
-  EXPECT_EQ(filter_.refine([] { return false; }).left_over, 0);
+  const Stats made = filter_.refine([] { return false; });
+  EXPECT_EQ(made.left_over, 0);
   EXPECT_TRUE(filter_.keeps_sums());
   expect_linear(next);
+
+  IncrementalFilter keeping(window, options_, kernels_);
+  keeping.filter(last, coc_);
+  const std::int64_t of_change = keeping.filter(next, coc_, [] { return false; }).edges;
+  EXPECT_EQ(made.edges, linear_.filter(last, coc_).edges + of_change);
+}
+
+TEST_F(KeptSums, ANumberOfPixelsAsBudgetIsServedToTheLastOneWithoutThem) {
+  FilterOptions options = options_;
+  options.budget = {Budget::Kind::count, 10000};
+  IncrementalFilter some(window, options, kernels_);
+  for (int frame = 0; frame < 6; ++frame) {
+    const Stats& stats = some.filter(full_change(), coc_);
+    ASSERT_EQ(some.keeps_sums(), frame == 0);
+    ASSERT_EQ(stats.updated, frame == 0 ? 10500 : 10000);
+    ASSERT_TRUE(test::invariant_holds(some, *kernels_));
+  }
+}
+
+TEST_F(KeptSums, ResetForgetsThatTheyWereMissed) {
+  for (int miss = 0; miss < 3; ++miss) {
+    for (int frame = 0; frame < 6; ++frame) filter(full_change());
+    Frame next = full_change();
+    filter(next);
+    next.colour.set(60, 30, 1, 0.25f);
+    filter(next);
+  }
+  filter(full_change());
+  filter(full_change());
+  EXPECT_TRUE(filter_.keeps_sums());
+  filter_.reset();
+  filter(full_change());
+  filter(full_change());
+  EXPECT_FALSE(filter_.keeps_sums());
 }
 
 TEST_F(KeptSums, AreMadeForAFrameOfAnotherTypeThatChangesNothing) {
