@@ -21,13 +21,18 @@ void measure(int width, int height, float radius, Pattern pattern, int threads, 
   options.threads = threads;
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
   const auto linear = make_linear_filter(frame.window(), options, kernels);
-  const auto incremental = make_incremental_filter(frame.window(), options, kernels);
-  const auto take = [&](const Frame& next) { return incremental->filter(next, kDepthIsCoc).filter_ms; };
-  incremental->filter(frame, kDepthIsCoc);
-  std::vector<std::function<double()>> things{[&] { return linear->filter(frame, kDepthIsCoc).filter_ms; },
-                                              [&] { return take(frame); }};
+  std::vector<std::function<double()>> things{[&] { return linear->filter(frame, kDepthIsCoc).filter_ms; }};
+  // A filter for each share, as a shot that changes by that much throughout; nothing is a share too.
+  const auto new_filter = [&] {
+    std::shared_ptr<Filter> filter = make_incremental_filter(frame.window(), options, kernels);
+    filter->filter(frame, kDepthIsCoc);
+    return [filter](const Frame& next) { return filter->filter(next, kDepthIsCoc).filter_ms; };
+  };
+  things.push_back([&frame, take = new_filter()] { return take(frame); });
   // There and back: both frames change the same pixels.
-  for (const Frame& other : changed) things.push_back([&] { return (take(other) + take(frame)) / 2; });
+  for (const Frame& other : changed) {
+    things.push_back([&frame, &other, take = new_filter()] { return (take(other) + take(frame)) / 2; });
+  }
   const std::vector<Times> times = in_turn(runs, things);
   std::vector<std::string> cells{fmt::format("{:g}", radius), pattern == Pattern::patch ? "one patch" : "at random",
                                  text(ns_a_pixel(times[0], frame.window().pixels()))};

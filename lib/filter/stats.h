@@ -7,7 +7,7 @@ namespace pullfocus {
 
 enum class ScatterMode {
   unchanged,    // nothing was updated
-  incremental,  // changes were scattered
+  incremental,  // changes were scattered; or all, once, where earlier rebuilds had not kept the sums to add changes to
   rebuild       // every committed pixel was scattered
 };
 
