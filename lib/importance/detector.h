@@ -52,8 +52,8 @@ class Detector {
         grid_(grid_of(state.colour.window())) {}
 
   // Tiles `first` .. `first + grid.columns() - 1`, which are one row of tiles. Goes by rows of pixels, not by tiles:
-  // memory is read in one stream. Calls take(ChangedRow, row) for every row of a
-  // tile with changed pixels, which returns the tile's max_index with that row in it.
+  // memory is read in one stream. Calls take(ChangedRow, row) for every row of a tile with changed pixels, which
+  // returns the tile's max_index with that row in it.
   template <typename Take>
   void run(int first, TileRow& row, const Take& take) const {
     row.tiles.resize(static_cast<std::size_t>(grid_.columns()));
