@@ -33,8 +33,8 @@ EdgeCount EdgesOfPixels(const int* edges, int last, const std::int16_t* was, con
     const auto old_edges = hn::GatherIndex(d, edges, hn::IfThenElse(counted, hn::Min(hn::Abs(from), none), none));
     const auto new_edges = hn::GatherIndex(d, edges, hn::IfThenElse(counted, hn::Min(hn::Abs(to), none), none));
     const auto is_same = hn::Eq(from, to);
-    const auto are_sources = hn::And(hn::Gt(from, held_out), hn::Gt(to, held_out));
-    const auto is_near = hn::And(are_sources, hn::Not(hn::Gt(hn::Abs(hn::Sub(to, from)), far)));
+    // What is near a source is one too: no table reaches the indices of those that are none.
+    const auto is_near = hn::And(hn::Gt(from, held_out), hn::Not(hn::Gt(hn::Abs(hn::Sub(to, from)), far)));
     before = hn::Add(before, old_edges);
     after = hn::Add(after, new_edges);
     same = hn::Add(same, hn::IfThenElseZero(is_same, new_edges));
