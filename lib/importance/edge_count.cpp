@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "scatter/state.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "importance/edge_count.cpp"
 #include <hwy/foreach_target.h>
@@ -22,7 +20,7 @@ EdgeCount EdgesOfPixels(const int* edges, int last, const std::int16_t* was, con
                         int n) {
   const hn::CappedTag<std::int32_t, 32> d;
   const hn::Rebind<std::int16_t, decltype(d)> d16;
-  const auto none = hn::Set(d, last), far = hn::Set(d, KernelTable::kFarthestMove), held_out = hn::Set(d, kHeldOut);
+  const auto none = hn::Set(d, last), far = hn::Set(d, KernelTable::kFarthestMove);
   auto before = hn::Zero(d), after = hn::Zero(d), same = hn::Zero(d), moved = hn::Zero(d);
   for (int i = 0; i < n; i += static_cast<int>(hn::Lanes(d))) {
     const std::uint64_t bits = mask >> i;
@@ -33,8 +31,8 @@ EdgeCount EdgesOfPixels(const int* edges, int last, const std::int16_t* was, con
     const auto old_edges = hn::GatherIndex(d, edges, hn::IfThenElse(counted, hn::Min(hn::Abs(from), none), none));
     const auto new_edges = hn::GatherIndex(d, edges, hn::IfThenElse(counted, hn::Min(hn::Abs(to), none), none));
     const auto is_same = hn::Eq(from, to);
-    // What is near a source is one too: no table reaches the indices of those that are none.
-    const auto is_near = hn::And(hn::Gt(from, held_out), hn::Not(hn::Gt(hn::Abs(hn::Sub(to, from)), far)));
+    // Whether they are sources need not be asked: what is none is far from all that are, and has no edges.
+    const auto is_near = hn::Not(hn::Gt(hn::Abs(hn::Sub(to, from)), far));
     before = hn::Add(before, old_edges);
     after = hn::Add(after, new_edges);
     same = hn::Add(same, hn::IfThenElseZero(is_same, new_edges));
