@@ -57,6 +57,7 @@ Run add_preview_command(CLI::App& app) {
       return preview::run_script(live, a->headless);
     }
     const preview::WindowModule& module = preview::window_module();  // before anything is read
+    a->session.autosave = true;
     preview::LiveSession live(a->session);
     window.export_shot = a->session.out;
     window.export_file = "preview.####.exr";

@@ -33,9 +33,23 @@ imageio::Picture to_picture(const ColourImage& colour, float exposure) {
 
 void LiveSession::save_keys(const std::string& file) {
   save_camera_keys(choice_.keys, file);
-  saved_ = choice_.keys;
+  std::error_code ignored;
+  if (!(autosaved_ == saved_)) std::filesystem::remove(autosave_file(keys_file_), ignored);
+  saved_ = autosaved_ = choice_.keys;
   keys_file_ = file;
   say("saved camera keys to " + file);
+}
+
+// A key file is small: written here, so that the last one written is the last one chosen.
+void LiveSession::autosave(double seconds) {
+  if (choice_.keys == saved_ || choice_.keys == autosaved_ || seconds - autosaved_at_ < 1) return;
+  autosaved_at_ = seconds;
+  autosaved_ = choice_.keys;
+  try {
+    save_camera_keys(choice_.keys, autosave_file(keys_file_));
+  } catch (const Error& error) {
+    say(error.what(), true);
+  }
 }
 
 // The engine makes the exact picture; another thread writes it. As `filter` writes an EXR file, with all its channels;

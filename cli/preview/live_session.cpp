@@ -54,6 +54,10 @@ LiveSession::LiveSession(const PreviewArguments& arguments)
   for (const auto& frame : shot_.sequence().frames) {
     if (!frame.problem.empty()) say(frame.problem, true);
   }
+  autosaved_ = saved_;
+  if (arguments.autosave && std::filesystem::exists(autosave_file(keys_file_))) {
+    say("an earlier session ended without saving its keys: load them from " + autosave_file(keys_file_));
+  }
   failures_ = 0;  // of what is done from now on
   wish();
 }
@@ -62,6 +66,8 @@ LiveSession::LiveSession(const PreviewArguments& arguments)
 LiveSession::~LiveSession() {
   on_change({});
   cache_.stop();
+  std::error_code ignored;
+  if (!(autosaved_ == saved_)) std::filesystem::remove(autosave_file(keys_file_), ignored);
 }
 
 std::shared_ptr<const FilterSetup> LiveSession::make_setup(const Choice& choice) const {
@@ -164,6 +170,7 @@ std::size_t LiveSession::position_of(const std::string& text) const {
 // are dropped.
 void LiveSession::tick(double seconds) {
   watch_shot();
+  if (arguments_.autosave) autosave(seconds);
   if (!playing_) return;
   if (!play_start_) {
     play_start_ = seconds;

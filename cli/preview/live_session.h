@@ -24,6 +24,7 @@ struct PreviewArguments {
   std::string budget = "16ms";
   double cache_mb = 2048;
   std::string keys, out, record;  // files; empty: derived from the input's name, none, none
+  bool autosave = false;          // unsaved keys go to autosave_file(), once a second
 };
 
 class LiveSession final : public Session {
@@ -46,6 +47,9 @@ class LiveSession final : public Session {
   bool is_writing() const;                   // frames or a shot
   int failures() const;                      // writes and shots that failed
   std::vector<std::string> take_messages();  // since the last call: errors with "error: " before them
+
+  // Where unsaved keys are kept while a session runs; gone when it ends as it should. "shot.keys.toml.autosave".
+  static std::string autosave_file(const std::string& keys_file) { return keys_file + ".autosave"; }
 
   // All verbs with their arguments and what they do, a line each.
   static std::string help();
@@ -86,6 +90,7 @@ class LiveSession final : public Session {
   void move_key(const Words& words);
   void undo(std::vector<Choice>& from, std::vector<Choice>& to);
   void save_keys(const std::string& file);
+  void autosave(double seconds);
   void export_frame(const std::string& name);
   void write_frame(const std::string& file, std::size_t frame, std::shared_ptr<const Camera> camera,
                    std::shared_ptr<const FilterSetup> setup, const ColourImage& colour, const Window& window,
@@ -97,7 +102,8 @@ class LiveSession final : public Session {
   const Shot shot_;
   Camera camera_;
   Choice choice_;
-  CameraKeys saved_;
+  CameraKeys saved_, autosaved_;
+  double autosaved_at_ = 0;  // seconds
   std::vector<Choice> undo_, redo_;
   bool holding_ = false, held_ = false;  // a drag, and one that has an undo step already
   std::shared_ptr<const FilterSetup> setup_;

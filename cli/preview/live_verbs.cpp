@@ -164,7 +164,8 @@ const std::vector<LiveSession::Verb>& LiveSession::verbs() {
          Choice choice = s.choice_;
          choice.keys = load_camera_keys(w[0]);
          s.choose(std::move(choice));
-         s.saved_ = s.choice_.keys;
+         if (w[0].ends_with(".autosave")) return;  // not a place to save to
+         s.saved_ = s.autosaved_ = s.choice_.keys;
          s.keys_file_ = w[0];
        }},
       {"export", "FILE", "write the current frame: .exr as filter writes it, .png and others as the result is viewed",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "image/error.h"
 #include "live_shot.h"
@@ -149,6 +150,34 @@ TEST_F(KeysOfASession, ByAClickAreTheDepthOfThatPixel) {
   EXPECT_NEAR(focus(), 3.2, 1e-6);  // of the slanted wall
   does("focus-at 5,8");
   EXPECT_EQ(focus(), 2);  // of the square
+}
+
+TEST(KeysThatAreNotSaved, AreKeptAsideUntilTheSessionEndsAsItShould) {
+  const LiveShot files(2);
+  PreviewArguments arguments = files.arguments();
+  arguments.autosave = true;
+  const std::string aside = LiveSession::autosave_file(arguments.keys);
+  {
+    LiveSession session(arguments);
+    session.tick(100);
+    EXPECT_FALSE(std::filesystem::exists(aside)) << "nothing was changed";
+    session.perform(parse_action("key focus 1 3"));
+    session.tick(101);
+    EXPECT_EQ(load_camera_keys(aside), session.snapshot().keys);
+    session.perform(parse_action("key focus 2 4"));
+    session.tick(101.5);
+    EXPECT_NE(load_camera_keys(aside), session.snapshot().keys) << "once a second";
+    session.tick(102.5);
+    EXPECT_EQ(load_camera_keys(aside), session.snapshot().keys);
+    LiveSession other(arguments);  // as after a crash
+    EXPECT_NE(other.snapshot().message.find(aside), std::string::npos) << other.snapshot().message;
+    session.perform(parse_action("save-keys"));
+    EXPECT_FALSE(std::filesystem::exists(aside));
+    session.perform(parse_action("focus 5"));
+    session.tick(104);
+    EXPECT_TRUE(std::filesystem::exists(aside));
+  }
+  EXPECT_FALSE(std::filesystem::exists(aside)) << "who closes the session has been asked";
 }
 
 TEST(KeysWithoutALens, AreRefused) {
