@@ -12,6 +12,7 @@ class IncrementalFilter::Call {
   bool can_be_stopped() const noexcept { return stop_ || timed(); }
   bool timed() const noexcept { return options_.budget.kind == Budget::Kind::time; }
   bool stopped() const { return stop_ && stop_(); }
+  bool has_stop_request() const noexcept { return static_cast<bool>(stop_); }
   double elapsed_ms() const { return now() - begin_; }
   double left_ms() const { return options_.budget.amount - elapsed_ms(); }
 

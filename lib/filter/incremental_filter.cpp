@@ -32,6 +32,7 @@ void IncrementalFilter::reset() {
   round_ = 0;
   frame_ = nullptr;
   left_.clear();
+  queue_.reset();
   dirty_.reset(core_.window.width(), core_.window.height());
   result_window_ = {};
   result_ = {};
@@ -69,6 +70,7 @@ const Stats& IncrementalFilter::filter(const Frame& frame, const CocFunction& co
   Call call(core_.options, stop);
   stats_ = {};
   core_.arena.execute([&] {
+    queue_.reset();
     frame_ = &in_state_type(frame);
     depth_kind_ = coc.kind;
     ++round_;
@@ -107,9 +109,7 @@ const Stats& IncrementalFilter::refine(const StopRequest& stop) {
 LeftOver IncrementalFilter::left_over() {
   if (left_.empty()) return {};
   LeftOver result;
-  core_.arena.execute([&] {
-    result = assess(left_, pending(), core_.scatter, core_.backdrop ? Backdrop::kReach : 0);
-  });
+  core_.arena.execute([&] { result = assess(left_, pending(), core_.scatter, core_.backdrop ? Backdrop::kReach : 0); });
   return result;
 }
 
@@ -141,7 +141,6 @@ ChangeThresholds IncrementalFilter::thresholds() const noexcept {
 void IncrementalFilter::finish(Call& call, std::vector<TileWork> changed, const std::vector<TileWork>& selected,
                                const EdgeCount* committed) {
   const Stopwatch scatter;
-  const bool was_incomplete = uncommitted_ > 0;
   std::vector<TileWork> done;
   if (committed == nullptr) {
     done = take_over(call, selected);
@@ -153,14 +152,14 @@ void IncrementalFilter::finish(Call& call, std::vector<TileWork> changed, const 
   const double before_resolve = call.timed() ? call.elapsed_ms() : 0;
   const Stopwatch resolve;
   stats_.left_over = stats_.changed - stats_.updated;
+  if (count_pixels(selected) != stats_.changed) queue_.reset();
   left_ = stats_.left_over > 0 ? without(changed, done) : std::vector<TileWork>{};
   waiting_.update({core_.window.width(), core_.window.height()}, left_);
   // What was left over or exempt may show what this frame no longer has.
   const bool behind = stats_.left_over > 0 || thresholds().any();
   result_window_ = behind ? unite(result_window_, reached_) : reached_;
-  if (was_incomplete) count_uncommitted(done);
   resolve_dirty();
-  if (uncommitted_ > 0) show_uncommitted(*frame_);
+  if (uncommitted_ > 0) show_uncommitted();
   stats_.resolve_ms = resolve.ms();
   if (call.timed()) {
     if (stats_.mode != ScatterMode::rebuild) pace_.resolved(stats_.resolved, call.elapsed_ms() - before_resolve);
@@ -175,37 +174,49 @@ std::vector<TileWork> IncrementalFilter::select(const Changes& changes) const {
   return select_pixels(changes, pending(), core_.options.importance, waiting_, allowance);
 }
 
-void IncrementalFilter::count_uncommitted(const std::vector<TileWork>& committed) {
-  uncommitted_ = std::count(state_.index.begin(), state_.index.end(), kNeverCommitted);
-  // Such pixels showed the input: those that have been committed since must be resolved wherever they lie.
-  if (stats_.mode == ScatterMode::rebuild && uncommitted_ == 0) return;
+// Before they are committed. They showed the input, so they must be resolved even where their kernels do not reach
+// them.
+void IncrementalFilter::no_longer_uncommitted(const std::vector<TileWork>& tiles) {
+  if (uncommitted_ == 0) return;
   const TileGrid grid = grid_of(core_.window);
-  for (const TileWork& work : committed) {
-    const TileMask::Bounds part = work.mask.bounds();
-    const int x = grid.x(work.tile), y = grid.y(work.tile);
-    for (int row = part.y0; row < part.y1; ++row) dirty_.mark(y + row, x + part.x0, x + part.x1);
+  for (const TileWork& work : tiles) {
+    for_each_tile_pixel(grid, work, [&](int, int, int x, int y) {
+      const std::size_t at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+      if (state_.index[at] != kNeverCommitted) return;
+      --uncommitted_;
+      dirty_.mark(y, x, x + 1);
+    });
   }
 }
 
 // A pixel never committed shows the frame itself, sanitised.
-void IncrementalFilter::show_uncommitted(const Frame& frame) {
+void IncrementalFilter::show_uncommitted() {
   const Window& w = core_.window;
-  dispatch(frame.colour.type(), [&]<SampleType type>() {
-    tbb::parallel_for(w.y0, w.y1, [&](int y) {
-      const std::int16_t* index =
-          &state_.index[static_cast<std::size_t>(y - w.y0) * static_cast<std::size_t>(w.width())];
-      for (int x = w.x0; x < w.x1; ++x) {
-        if (index[x - w.x0] != kNeverCommitted) continue;
-        const Pixel<type> pixel = core_.sanitiser(load_pixel<type>(frame.colour.pixel(x, y)));
-        if (result_.type() == type) {
-          std::memcpy(result_.pixel(x, y), &pixel, sizeof pixel);
-          continue;
-        }
-        for (int c = 0; c < 4; ++c) {
-          const float value = sample_value(pixel.rgba[c]);
-          result_.set(x, y, c, result_.type() == SampleType::half ? std::clamp(value, -65504.f, 65504.f) : value);
+  const auto show_row = [&]<SampleType type, SampleType out_type>(int y) {
+    const std::int16_t* index = &state_.index[static_cast<std::size_t>(y - w.y0) * static_cast<std::size_t>(w.width())];
+    const auto* in = reinterpret_cast<const Pixel<type>*>(frame_->colour.pixel(w.x0, y));
+    auto* out = reinterpret_cast<Pixel<out_type>*>(result_.pixel(w.x0, y));
+    for (int i = 0; i < w.width(); ++i) {
+      if (index[i] != kNeverCommitted) continue;
+      const Pixel<type> pixel = core_.sanitiser(in[i]);
+      if constexpr (type == out_type) {
+        out[i] = pixel;
+        continue;
+      }
+      for (int c = 0; c < 4; ++c) {
+        const float value = sample_value(pixel.rgba[c]);
+        if constexpr (out_type == SampleType::float32) {
+          std::memcpy(&out[i].rgba[c], &value, sizeof value);
+        } else {
+          result_.set(w.x0 + i, y, c, std::clamp(value, -65504.f, 65504.f));
         }
       }
+    }
+  };
+  dispatch(frame_->colour.type(), [&]<SampleType type>() {
+    dispatch(result_.type(), [&]<SampleType out_type>() {
+      tbb::parallel_for(w.y0, w.y1, [&](int y) { show_row.template operator()<type, out_type>(y); });
     });
   });
 }

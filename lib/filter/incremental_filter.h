@@ -21,6 +21,7 @@
 // history.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "filter/core.h"
@@ -72,7 +73,7 @@ class IncrementalFilter final : public Filter {
               const EdgeCount* committed);
   // Scatters and commits the selection, in slices if the call can be stopped; returns what was committed.
   std::vector<TileWork> take_over(Call& call, const std::vector<TileWork>& selected);
-  std::vector<TileWork> take_over_in_slices(Call& call, const std::vector<TileWork>& selected);
+  std::vector<TileWork> take_over_in_slices(Call& call, const std::vector<TileWork>& selected, const EdgeCount& edges);
   bool rebuild_is_cheaper(const EdgeCount& edges, const std::vector<TileWork>& selected) const noexcept;
   void add(const std::vector<LayerWork>& work, const Sources& sources);
   void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
@@ -84,8 +85,8 @@ class IncrementalFilter final : public Filter {
   void make_room(const LayerWork& work);
   void resolve_dirty();
   void resolve_rows_of_sums();
-  void count_uncommitted(const std::vector<TileWork>& committed);
-  void show_uncommitted(const Frame& frame);
+  void no_longer_uncommitted(const std::vector<TileWork>& tiles);
+  void show_uncommitted();
 
   FilterCore core_;
   SourceState state_;
@@ -100,6 +101,7 @@ class IncrementalFilter final : public Filter {
   DepthKind depth_kind_ = DepthKind::planar;  // of that frame
   Window reached_;                            // by that frame
   std::vector<TileWork> left_;                // what it left over
+  std::optional<SliceQueue> queue_;           // that holds exactly that, if it was cut into slices
   std::int64_t uncommitted_ = 0;              // pixels never committed
   std::int64_t edges_ = 0;                    // of the committed state
   DirtySpans dirty_;

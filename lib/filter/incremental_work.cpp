@@ -11,18 +11,20 @@ namespace pullfocus {
 
 std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector<TileWork>& selected) {
   if (selected.empty()) return {};
-  const EdgeCount edges = count_edges(selected, pending());
+  const EdgeCount edges = queue_ ? queue_->edges_left() : count_edges(selected, pending());
   const bool cheaper = rebuild_is_cheaper(edges, selected);
   if (call.can_be_stopped()) {
     // A rebuild cannot be stopped: it must be sure to end in time.
     const double rebuild_ms =
         pace_.scatter_ms(edges_ + edges.committed) + pace_.resolve_ms(static_cast<std::int64_t>(core_.window.pixels()));
     if (!cheaper || !call.timed() || rebuild_ms > call.left_ms()) {
-      return take_over_in_slices(call, selected);
+      return take_over_in_slices(call, selected, edges);
     }
   }
+  queue_.reset();
   if (cheaper || !sums_kept_) {
     edges_ += edges.committed;
+    no_longer_uncommitted(selected);
     commit(*frame_, core_.sanitiser, pending_, selected, state_);
     rebuild(selected, cheaper, call);
   } else {
@@ -40,27 +42,32 @@ void IncrementalFilter::take_committed(const Call& call, const std::vector<TileW
 }
 
 // Of a time budget, what resolving will take is kept back. The first slice is done in any case, so that calls with too
-// short a budget get there too.
-std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const std::vector<TileWork>& selected) {
-  constexpr double slice_ms = 1;
+// short a budget get there too. What is left goes on in the same order in refine().
+std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const std::vector<TileWork>& selected,
+                                                             const EdgeCount& edges) {
+  // Larger slices scatter faster, small ones stop in time.
+  constexpr double least_ms = 1, most_ms = 4;
+  const std::int64_t most = call.has_stop_request() ? core_.options.slice_edges
+                                                    : std::min(core_.options.slice_edges, std::int64_t{1} << 59) * 8;
   std::vector<TileWork> done;
-  SliceQueue queue(selected, pending(), core_.options.importance, waiting_);
+  if (!queue_) queue_.emplace(selected, pending(), core_.options.importance, waiting_, edges);
+  SliceQueue& queue = *queue_;
   std::int64_t dirty = dirty_.pixels(), growth = 0;
   double before = call.timed() ? call.elapsed_ms() : 0;
   while (!queue.empty() && !call.stopped()) {
-    std::int64_t room = core_.options.slice_edges;
+    std::int64_t room = most;
     if (call.timed()) {
       const double left = core_.options.budget.amount - before - pace_.resolve_ms(dirty + growth);
       if (left <= 0 && stats_.slices > 0) break;
+      const double slice_ms = call.has_stop_request() ? most_ms : std::max(left / 3, least_ms);
       room = std::min(room, pace_.edges_in(std::min(left, slice_ms)));
     }
-    const std::vector<TileWork> slice = queue.next(room);
-    const EdgeCount edges = count_edges(slice, pending());
-    update(slice, edges);
+    const auto [slice, of_slice] = queue.next(room);
+    update(slice, of_slice);
     done.insert(done.end(), slice.begin(), slice.end());
     if (!call.timed()) continue;
     const double after = call.elapsed_ms();
-    pace_.scattered(edges.written, after - before);
+    pace_.scattered(of_slice.written, after - before);
     before = after;
     const std::int64_t now_dirty = dirty_.pixels();
     growth = now_dirty - dirty;
@@ -139,6 +146,7 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Edge
       dirty_.mark(y, x, x + 1);
     });
   }
+  no_longer_uncommitted(selected);
   commit(*frame_, core_.sanitiser, pending_, selected, state_);
   if (core_.occlusion) {
     core_.occlusion->take(*frame_, depth_kind_, state_, selected);

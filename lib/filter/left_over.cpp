@@ -71,8 +71,7 @@ void dilate(const TileGrid& grid, int dx, int dy, std::vector<Value>& values, Wi
   }
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
-      for (int i = std::max(y - dy, 0); i <= std::min(y + dy, rows - 1); ++i)
-        widen(values[at(x, y)], along[at(x, i)]);
+      for (int i = std::max(y - dy, 0); i <= std::min(y + dy, rows - 1); ++i) widen(values[at(x, y)], along[at(x, i)]);
     }
   }
 }
@@ -121,11 +120,18 @@ void importance_of(const std::vector<TileWork>& left, const Pending& pending, co
   const Window& w = pending.frame.window();
   out.reset(w, 0);
   const TileGrid grid = grid_of(w);
-  const auto of_tile = priorities(left, pending, options);
-  for (std::size_t t = 0; t < left.size(); ++t) {
-    std::size_t i = 0;
-    for_each_tile_pixel(grid, left[t], [&](int, int, int x, int y) { out.at(w.x0 + x, w.y0 + y) = of_tile[t][i++]; });
-  }
+  const Priorities of(pending, options);
+  tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t t) {
+    const int x = grid.x(left[t].tile), width = grid.tile_width(left[t].tile);
+    for (int i = 0; i < kTileHeight; ++i) {
+      if (left[t].mask.rows[i] == 0) continue;
+      const int y = grid.y(left[t].tile) + i;
+      float of_row[kTileWidth];
+      of.row(x, y, width, of_row);
+      float* to = out.row(w.y0 + y) + x;
+      for_each_pixel(left[t].mask.rows[i], [&](int p) { to[p] = of_row[p]; });
+    }
+  });
 }
 
 }  // namespace pullfocus

@@ -45,9 +45,10 @@ struct FilterOptions {
                            // changes of colour alone accordingly; needs a full budget and no other thresholds
   std::optional<SampleType> output_type;  // of the result; nullopt: the frame's own
   int threads = 0;                        // >= 1, or 0 for all processors
-  std::int64_t slice_edges = 1 << 20;     // most work between two looks at a stop request, in run edges, >= 1; where
-                                          // calls without one have rebuilt every frame, the first slice of a call
-                                          // with one may take as long as a rebuild
+  std::int64_t slice_edges = 1 << 20;     // most work between two looks at a stop request, in run edges, >= 1; slices
+                                          // of a time budget without such requests: up to 8 times; where calls without
+                                          // one have rebuilt every frame, the first slice of a call with one may take
+                                          // as long as a rebuild
   Clock clock;                            // for time budgets; empty: the steady clock
 };
 

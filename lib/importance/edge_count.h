@@ -19,6 +19,11 @@ struct EdgeCount {
     moved += other.moved;
     committed += other.committed;
   }
+  void subtract(const EdgeCount& other) noexcept {
+    written -= other.written;
+    moved -= other.moved;
+    committed -= other.committed;
+  }
 };
 
 // Of the pixels `mask` of a tile row of n pixels (n <= kTileWidth, no bit of the mask beyond): each goes from a signed

@@ -6,6 +6,13 @@
 
 namespace pullfocus {
 
+namespace {
+
+// A pixel is judged as part of a block if its kernels cover so many pixels: the steps between blocks are blurred then.
+constexpr float kLeastArea = 8;
+
+}  // namespace
+
 Gain::Gain(const Pending& pending, const ColourMetric& metric) : pending_(pending), metric_(metric) {
   for (int index = 0; index < pending.kernels.coc().size(); ++index) {
     const double area = pending.kernels.area(index);
@@ -44,7 +51,7 @@ void Gain::load_rows(int x, int y, int n, Colours& now, Colours& then) const noe
       n, [&](int i) { return old[i]; }, then);
 }
 
-void Gain::row(int x, int y, int n, float* out) const noexcept {
+std::uint64_t Gain::row(int x, int y, int n, float* out) const noexcept {
   const Window& w = pending_.frame.window();
   const std::size_t first =
       static_cast<std::size_t>(y) * static_cast<std::size_t>(w.width()) + static_cast<std::size_t>(x);
@@ -70,6 +77,18 @@ void Gain::row(int x, int y, int n, float* out) const noexcept {
       ab[i] += a * b;
     }
   }
+  // In [0, 1), other ones in every call.
+  const auto spread = [&](int column, int row) {
+    const std::uint32_t at =
+        static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(w.width()) + static_cast<std::uint32_t>(column);
+    return 0x1p-24f * static_cast<float>(scrambled(at + 0x9e3779b9u * pending_.round) >> 8);
+  };
+  float of_block[kTileWidth / kBlockWidth];
+  const int tile_x = x / kTileWidth * kTileWidth;
+  for (int b = 0; b < kTileWidth / kBlockWidth; ++b) {
+    of_block[b] = spread(tile_x + b * kBlockWidth, y / kBlockHeight * kBlockHeight);
+  }
+  bool as_block[kTileWidth];
   for (int i = 0; i < n; ++i) {
     // A held-out pixel shows itself, as one in focus does.
     const auto now_at = static_cast<std::size_t>(reach_index(is[i])),
@@ -77,16 +96,18 @@ void Gain::row(int x, int y, int n, float* out) const noexcept {
     const float area_now = areas_[now_at], area_then = areas_[then_at];
     const float of_colour = changed[i] * std::max(fourth_roots_[now_at], fourth_roots_[then_at]);
     const float of_kernel = aa[i] * area_now + bb[i] * area_then - 2 * ab[i] * std::min(area_now, area_then);
-    // In [0, 1), another for every pixel and call.
-    const std::uint32_t spread =
-        scrambled(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i) + 0x9e3779b9u * pending_.round);
-    const float of_both =
-        changed[i] > 0 ? std::max(of_kernel, of_colour) : of_kernel * (0x1p-24f * static_cast<float>(spread >> 8));
-    const float gain = was[i] == is[i] ? of_colour : of_both;
+    const bool only_kernel = was[i] != is[i] && !(changed[i] > 0);
+    as_block[i] = only_kernel && std::max(area_now, area_then) * kLeastArea <= 1;
+    const float at_random = as_block[i] ? of_block[(x + i - tile_x) / kBlockWidth] : spread(x + i, y);
+    const float of_move = only_kernel ? of_kernel * at_random : std::max(of_kernel, of_colour);
+    const float gain = was[i] == is[i] ? of_colour : of_move;
     constexpr float most = std::numeric_limits<float>::max();  // also where it is no number, among huge colours
     out[i] = gain <= most ? std::max(gain, 0.f) : most;
     if (was[i] == kNeverCommitted) out[i] = kFirstOfAll;
   }
+  std::uint64_t blocks = 0;
+  for (int i = 0; i < n; ++i) blocks |= std::uint64_t{as_block[i]} << i;
+  return blocks;
 }
 
 }  // namespace pullfocus

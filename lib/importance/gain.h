@@ -15,7 +15,8 @@ class Gain {
 
   // Priorities of pixels x .. x + n - 1 (n <= kTileWidth) of row y, from the window's corner; what they are where
   // nothing has changed means nothing. Single precision, and the same bits everywhere: no operation is contracted.
-  void row(int x, int y, int n, float* out) const noexcept;
+  // Returns where only the kernel changes, bit i of pixel x + i.
+  std::uint64_t row(int x, int y, int n, float* out) const noexcept;
 
  private:
   struct Colours {

@@ -1,14 +1,9 @@
 #include "importance/order.h"
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "importance/distance.h"
 #include "importance/gain.h"
-#include "importance/tile_sets.h"
 
 namespace pullfocus {
 
@@ -65,39 +60,25 @@ class PixelChange {
   const Window window_;
 };
 
-std::vector<float> gains(const Gain& gain, const TileGrid& grid, const TileWork& work) {
-  std::vector<float> result;
-  result.reserve(static_cast<std::size_t>(work.mask.count()));
-  for (int i = 0; i < kTileHeight; ++i) {
-    const std::uint64_t row = work.mask.rows[i];
-    if (row == 0) continue;
-    const int first = std::countr_zero(row), n = static_cast<int>(std::bit_width(row)) - first;
-    float priorities[kTileWidth];
-    gain.row(grid.x(work.tile) + first, grid.y(work.tile) + i, n, priorities);
-    for_each_pixel(row, [&](int p) { result.push_back(priorities[p - first]); });
-  }
-  return result;
-}
-
 }  // namespace
 
-std::vector<std::vector<float>> priorities(const std::vector<TileWork>& tiles, const Pending& pending,
-                                           const ImportanceOptions& options) {
-  std::vector<std::vector<float>> result(tiles.size());
-  const TileGrid grid = grid_of(pending.frame.window());
-  if (options.order == Order::gain) {
-    const Gain gain(pending, options.metric);
-    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) { result[t] = gains(gain, grid, tiles[t]); });
-    return result;
-  }
-  dispatch(pending.frame.colour.type(), [&]<SampleType type>() {
-    const PixelChange<type> change(pending, options);
-    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
-      result[t].reserve(static_cast<std::size_t>(tiles[t].mask.count()));
-      for_each_tile_pixel(grid, tiles[t], [&](int, int, int x, int y) { result[t].push_back(change.priority(x, y)); });
-    });
-  });
-  return result;
+Priorities::Priorities(const Pending& pending, const ImportanceOptions& options)
+    : pending_(pending),
+      options_(options),
+      gain_(options.order == Order::gain ? std::make_unique<Gain>(pending, options.metric) : nullptr) {}
+
+Priorities::~Priorities() = default;
+
+template <SampleType type>
+void Priorities::row_of_pixels(int x, int y, int n, float* out) const noexcept {
+  const PixelChange<type> change(pending_, options_);
+  for (int i = 0; i < n; ++i) out[i] = change.priority(x + i, y);
+}
+
+std::uint64_t Priorities::row(int x, int y, int n, float* out) const noexcept {
+  if (gain_) return gain_->row(x, y, n, out);
+  dispatch(pending_.frame.colour.type(), [&]<SampleType type>() { row_of_pixels<type>(x, y, n, out); });
+  return 0;
 }
 
 }  // namespace pullfocus

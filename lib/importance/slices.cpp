@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "importance/tile_row.h"
 
@@ -24,6 +25,11 @@ EdgeCount edges_of_tile(const TileGrid& grid, const TileWork& work, const Pendin
   return count;
 }
 
+// From how many rows of a tile its importance is estimated: all where few of its pixels have changed.
+int row_step(const TileWork& work, Order order) noexcept {
+  return order == Order::gain && work.mask.count() > kTileWidth * kTileHeight / 2 ? 4 : 1;
+}
+
 }  // namespace
 
 EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending) {
@@ -37,31 +43,43 @@ EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending
   return sum;
 }
 
-SliceQueue::SliceQueue(const std::vector<TileWork>& tiles, const Pending& pending, const ImportanceOptions& options,
-                       const WaitingTimes& waiting)
-    : tiles_(tiles), pending_(pending), rows_done_(tiles.size()), left_(tiles.size()) {
+SliceQueue::SliceQueue(std::vector<TileWork> tiles, const Pending& pending, const ImportanceOptions& options,
+                       const WaitingTimes& waiting, const EdgeCount& edges)
+    : tiles_(std::move(tiles)), pending_(pending), rows_done_(tiles_.size()), left_(tiles_.size()), edges_left_(edges) {
   const TileGrid grid = grid_of(pending.frame.window());
-  const auto of_tile = priorities(tiles, pending, options);
-  std::vector<double> importance(tiles.size());
-  std::vector<int> waited(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
+  const Priorities priorities(pending, options);
+  std::vector<double> importance(tiles_.size());
+  std::vector<int> waited(tiles_.size());
+  tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t t) {
+    const TileWork& work = tiles_[t];
+    const int step = row_step(work, options.order), width = grid.tile_width(work.tile);
     double sum = 0, largest = 0;
-    for (const float priority : of_tile[t]) {
-      sum += static_cast<double>(priority);
-      largest = std::max(largest, static_cast<double>(priority));
+    std::int64_t written = 0;
+    for (int i = 0; i < kTileHeight; ++i) {
+      if (work.mask.rows[i] == 0) continue;
+      const int x = grid.x(work.tile), y = grid.y(work.tile) + i;
+      if (waiting.any()) {
+        int waits[kTileWidth];
+        waiting.of_row(position(grid, x, y), width, waits);
+        for_each_pixel(work.mask.rows[i], [&](int p) { waited[t] = std::max(waited[t], waits[p]); });
+      }
+      if (i % step != 0) continue;
+      written += step * row_edges(work, i).written;
+      float of_row[kTileWidth];
+      priorities.row(x, y, width, of_row);
+      for_each_pixel(work.mask.rows[i], [&](int p) {
+        sum += step * static_cast<double>(of_row[p]);
+        largest = std::max(largest, static_cast<double>(of_row[p]));
+      });
     }
-    const auto edges = static_cast<double>(edges_of_tile(grid, tiles[t], pending).written);
-    importance[t] = options.order == Order::gain ? sum / (edges + kTileEdges) : largest;
-    for_each_tile_pixel(grid, tiles[t], [&](int, int, int x, int y) {
-      waited[t] = std::max(waited[t], waiting.of(position(grid, x, y)));
-    });
+    importance[t] = options.order == Order::gain ? sum / (static_cast<double>(written) + kTileEdges) : largest;
   });
   const std::uint32_t round = scrambled(pending.round);
-  const auto tie = [&](std::size_t t) { return scrambled(static_cast<std::uint32_t>(tiles[t].tile) ^ round); };
+  const auto tie = [&](std::size_t t) { return scrambled(static_cast<std::uint32_t>(tiles_[t].tile) ^ round); };
   const auto more_important = [&](std::size_t a, std::size_t b) {
     return importance[a] != importance[b] ? importance[a] > importance[b] : tie(a) > tie(b);
   };
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
     by_importance_.push_back(t);
     if (waited[t] > 0) by_waiting_.push_back(t);
   }
@@ -71,16 +89,15 @@ SliceQueue::SliceQueue(const std::vector<TileWork>& tiles, const Pending& pendin
   });
 }
 
-std::int64_t SliceQueue::row_edges(const TileWork& work, int row) const noexcept {
+EdgeCount SliceQueue::row_edges(const TileWork& work, int row) const noexcept {
   const TileGrid grid = grid_of(pending_.frame.window());
   const std::size_t first = position(grid, grid.x(work.tile), grid.y(work.tile) + row);
   return edges_of_row(pending_.kernels, &pending_.state.index[first], &pending_.index[first], work.mask.rows[row],
-                      grid.tile_width(work.tile))
-      .written;
+                      grid.tile_width(work.tile));
 }
 
-std::vector<TileWork> SliceQueue::next(std::int64_t most_edges) {
-  std::vector<TileWork> slice;
+SliceQueue::Slice SliceQueue::next(std::int64_t most_edges) {
+  Slice slice;
   std::int64_t room = most_edges;
   const auto skip_done = [&](const std::vector<std::size_t>& order, std::size_t& at) {
     while (at < order.size() && rows_done_[order[at]] == kTileHeight) ++at;
@@ -96,16 +113,18 @@ std::vector<TileWork> SliceQueue::next(std::int64_t most_edges) {
     for (; rows_done_[t] < kTileHeight; ++rows_done_[t]) {
       const int row = rows_done_[t];
       if (work.mask.rows[row] == 0) continue;
-      const std::int64_t edges = row_edges(work, row);
-      const bool first = slice.empty() && !part.mask.any();
-      if (!first && edges > room) break;
+      const EdgeCount edges = row_edges(work, row);
+      const bool first = slice.tiles.empty() && !part.mask.any();
+      if (!first && edges.written > room) break;
       part.mask.rows[row] = work.mask.rows[row];
-      room -= edges;
+      room -= edges.written;
+      slice.edges.add(edges);
     }
-    if (part.mask.any()) slice.push_back(part);
+    if (part.mask.any()) slice.tiles.push_back(part);
     if (rows_done_[t] < kTileHeight) break;
     --left_;
   }
+  edges_left_.subtract(slice.edges);
   return slice;
 }
 

@@ -14,29 +14,39 @@ namespace pullfocus {
 EdgeCount count_edges(const std::vector<TileWork>& tiles, const Pending& pending);
 
 // Hands out a selection in slices, whole tiles in order of importance: for Order::gain by the sum of priorities per
-// edge, for Order::fearing by the most important pixel, for Order::random as positions are scrambled. Every second
-// slice serves the tiles that have waited longest, as long as any has waited. What `tiles`, `pending` and `waiting`
-// refer to must outlive the queue; their pixels may be committed meanwhile as slices are handed out.
+// edge, estimated from every fourth row where most of a tile has changed, for Order::fearing by the most important
+// pixel, for Order::random as positions are scrambled. Every second slice serves the tiles that have waited longest, as
+// long as any has waited. What `pending` refers to must outlive the queue; its pixels may be committed meanwhile as
+// slices are handed out.
 class SliceQueue {
  public:
-  SliceQueue(const std::vector<TileWork>& tiles, const Pending& pending, const ImportanceOptions& options,
-             const WaitingTimes& waiting);
+  // `edges` as count_edges() counts them.
+  SliceQueue(std::vector<TileWork> tiles, const Pending& pending, const ImportanceOptions& options,
+             const WaitingTimes& waiting, const EdgeCount& edges);
 
   bool empty() const noexcept { return left_ == 0; }
 
   // The next slice, in no particular order of tiles: at most about `most_edges` edges, but at least one tile row. Not
   // for an empty queue.
-  std::vector<TileWork> next(std::int64_t most_edges);
+  struct Slice {
+    std::vector<TileWork> tiles;
+    EdgeCount edges;
+  };
+  Slice next(std::int64_t most_edges);
+
+  // Of all that has not been handed out.
+  const EdgeCount& edges_left() const noexcept { return edges_left_; }
 
  private:
-  std::int64_t row_edges(const TileWork& work, int row) const noexcept;
+  EdgeCount row_edges(const TileWork& work, int row) const noexcept;
 
-  const std::vector<TileWork>& tiles_;
+  const std::vector<TileWork> tiles_;
   const Pending pending_;
   std::vector<std::size_t> by_importance_, by_waiting_;  // positions in tiles_, first comes first
   std::size_t next_important_ = 0, next_waiting_ = 0;
   std::vector<std::uint8_t> rows_done_;  // of every tile; kTileHeight: handed out
   std::size_t left_;
+  EdgeCount edges_left_;
   bool serve_waiting_ = false;
 };
 

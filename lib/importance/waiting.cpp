@@ -1,26 +1,36 @@
 #include "importance/waiting.h"
 
+#include <tbb/parallel_for.h>
+
 namespace pullfocus {
 
+void WaitingTimes::of_row(std::size_t first, int n, int* out) const noexcept {
+  for (int i = 0; i < n; ++i) out[i] = of(first + static_cast<std::size_t>(i));
+}
+
+// Only pixels that begin or cease to wait are written.
 void WaitingTimes::update(const TileGrid& grid, const std::vector<TileWork>& left) {
   if (left.empty() && last_.empty()) return;
-  waited_.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
-  const auto at = [&](int x, int y) -> std::uint16_t& {
-    return waited_[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + x];
-  };
-  for (const TileWork& work : without(last_, left)) {
-    for_each_tile_pixel(grid, work, [&](int, int, int x, int y) { at(x, y) = 0; });
-  }
-  for (const TileWork& work : left) {
-    for_each_tile_pixel(grid, work, [&](int, int, int x, int y) {
-      if (at(x, y) < 0xffff) ++at(x, y);
+  since_.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  calls_ = left.empty() ? 0 : calls_ + 1;
+  const auto set = [&](const std::vector<TileWork>& tiles, std::uint32_t since) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), kTilesTogether), [&](const auto& range) {
+      for (std::size_t t = range.begin(); t < range.end(); ++t) {
+        for_each_tile_pixel(grid, tiles[t], [&](int, int, int x, int y) {
+          since_[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x)] =
+              since;
+        });
+      }
     });
-  }
+  };
+  set(without(last_, left), 0);
+  set(without(left, last_), calls_);
   last_ = left;
 }
 
 void WaitingTimes::clear() noexcept {
-  waited_.clear();
+  calls_ = 0;
+  since_.clear();
   last_.clear();
 }
 

@@ -91,6 +91,20 @@ TEST(TimeBudget, DoesASliceHoweverShortTheTimeSoThatCallsGetThere) {
   EXPECT_EQ(test::difference(filter.result(), linear_result(shot.frame(), coc)), "");
 }
 
+TEST(TimeBudget, ResolvesOnlyWhatItsSlicesReachWhileMostPixelsHaveNeverBeenCommitted) {
+  FakeClock clock;
+  clock.ms = 100;
+  test::RandomShot shot(window, 3, SampleType::half, true, false);
+  IncrementalFilter filter(window, with_time(1, clock));
+  filter.filter(shot.frame(), test::random_lens(shot.random(), 20));
+  for (int call = 0; call < 3; ++call) {
+    const Stats& stats = filter.refine();
+    ASSERT_GT(stats.left_over, 30000);
+    EXPECT_GT(stats.resolved, 0);
+    EXPECT_LT(stats.resolved, 12000);
+  }
+}
+
 TEST(TimeBudget, KeepsBackTheTimeThatResolvingTook) {
   FakeClock clock;
   test::RandomShot shot(window, 4, SampleType::half, true, false);
