@@ -48,6 +48,7 @@ struct Drag {
 Drag measure(const Frame& frame, float scale, float step, int threads, int turns) {
   FilterOptions options;
   options.threads = threads;
+  options.slice_edges = std::int64_t{1} << 24;  // as the preview
   const auto kernels = std::make_shared<const KernelTable>(options.kernel);
   const auto filter = make_incremental_filter(frame.window(), options, kernels);
   const auto linear = make_linear_filter(frame.window(), options, kernels);

@@ -77,6 +77,7 @@ std::shared_ptr<const FilterSetup> LiveSession::make_setup(const Choice& choice)
   const exr::FileInfo& first = shot_.sequence().first;
   auto setup = std::make_shared<FilterSetup>();
   setup->options = filter_options(filter, {static_cast<double>(first.pixel_aspect), first.chromaticities, {}});
+  setup->options.slice_edges = std::int64_t{1} << 24;  // pictures are shown by time, and larger slices scatter faster
   setup->method = describe_method("incremental", setup->options);
   return setup;
 }

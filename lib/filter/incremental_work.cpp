@@ -1,5 +1,6 @@
 // How the incremental filter takes a selection over: at once, in slices, or by a rebuild.
 #include <algorithm>
+#include <limits>
 
 #include "filter/call.h"
 #include "filter/incremental_filter.h"
@@ -12,14 +13,17 @@ namespace pullfocus {
 std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector<TileWork>& selected) {
   if (selected.empty()) return {};
   const EdgeCount edges = queue_ ? queue_->edges_left() : count_edges(selected, pending());
-  const bool cheaper = rebuild_is_cheaper(edges, selected);
+  bool cheaper = rebuild_is_cheaper(edges, selected);
   if (call.can_be_stopped()) {
-    // A rebuild cannot be stopped: it must be sure to end in time.
+    // A rebuild cannot be stopped: it must be sure to end in time. Slices cost more than an update at once; where there
+    // is time for a rebuild, it is made if it takes less.
     const double rebuild_ms =
-        pace_.scatter_ms(edges_ + edges.committed) + pace_.resolve_ms(static_cast<std::int64_t>(core_.window.pixels()));
-    if (!cheaper || !call.timed() || rebuild_ms > call.left_ms()) {
+        pace_.rebuild_ms(edges_ + edges.committed, static_cast<std::int64_t>(core_.window.pixels()));
+    const bool faster = cheaper || (queue_ && pace_.scatter_ms(queue_->work_left()) > rebuild_ms);
+    if (!faster || !call.timed() || rebuild_ms > call.left_ms()) {
       return take_over_in_slices(call, selected, edges);
     }
+    cheaper = true;
   }
   queue_.reset();
   if (cheaper || !sums_kept_) {
@@ -55,19 +59,19 @@ std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const s
   std::int64_t dirty = dirty_.pixels(), growth = 0;
   double before = call.timed() ? call.elapsed_ms() : 0;
   while (!queue.empty() && !call.stopped()) {
-    std::int64_t room = most;
+    std::int64_t work = std::numeric_limits<std::int64_t>::max() / 2;
     if (call.timed()) {
       const double left = core_.options.budget.amount - before - pace_.resolve_ms(dirty + growth);
       if (left <= 0 && stats_.slices > 0) break;
       const double slice_ms = call.has_stop_request() ? most_ms : std::max(left / 3, least_ms);
-      room = std::min(room, pace_.edges_in(std::min(left, slice_ms)));
+      work = pace_.work_in(std::min(left, slice_ms));
     }
-    const auto [slice, of_slice] = queue.next(room);
-    update(slice, of_slice);
-    done.insert(done.end(), slice.begin(), slice.end());
+    const SliceQueue::Slice slice = queue.next(most, work);
+    update(slice.tiles, slice.edges);
+    done.insert(done.end(), slice.tiles.begin(), slice.tiles.end());
     if (!call.timed()) continue;
     const double after = call.elapsed_ms();
-    pace_.scattered(of_slice.written, after - before);
+    pace_.scattered(slice.work, after - before);
     before = after;
     const std::int64_t now_dirty = dirty_.pixels();
     growth = now_dirty - dirty;
@@ -176,7 +180,9 @@ void IncrementalFilter::rebuild(const std::vector<TileWork>& selected, bool is_c
     keep_rule_.updated(true);
     keep = true;
   }
+  const double before = call.elapsed_ms();
   scatter_state(keep, true);
+  if (round_ > 1) pace_.rebuilt(edges_, call.elapsed_ms() - before);  // memory is touched for the first time before
   dirty_.reset(core_.window.width(), core_.window.height());
   stats_.updated += count_pixels(selected);
   stats_.resolved += static_cast<std::int64_t>(core_.window.pixels());

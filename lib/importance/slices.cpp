@@ -11,9 +11,6 @@ namespace pullfocus {
 
 namespace {
 
-// What a tile costs beside its edges, in edges.
-constexpr double kTileEdges = 4000;
-
 EdgeCount edges_of_tile(const TileGrid& grid, const TileWork& work, const Pending& pending) noexcept {
   EdgeCount count;
   for (int i = 0; i < kTileHeight; ++i) {
@@ -25,9 +22,12 @@ EdgeCount edges_of_tile(const TileGrid& grid, const TileWork& work, const Pendin
   return count;
 }
 
-// From how many rows of a tile its importance is estimated: all where few of its pixels have changed.
+// A tile's importance is estimated from every so manieth row: from all of them where few pixels have changed, of which
+// a single one may be what matters.
 int row_step(const TileWork& work, Order order) noexcept {
-  return order == Order::gain && work.mask.count() > kTileWidth * kTileHeight / 2 ? 4 : 1;
+  if (order != Order::gain) return 1;
+  const int changed = work.mask.count();
+  return changed > kTileWidth * kTileHeight / 4 ? 8 : changed > kTileWidth / 4 ? 4 : 1;
 }
 
 }  // namespace
@@ -72,8 +72,11 @@ SliceQueue::SliceQueue(std::vector<TileWork> tiles, const Pending& pending, cons
         largest = std::max(largest, static_cast<double>(of_row[p]));
       });
     }
-    importance[t] = options.order == Order::gain ? sum / (static_cast<double>(written) + kTileEdges) : largest;
+    importance[t] =
+        options.order == Order::gain ? sum / static_cast<double>(written + reach_work(work, kTileHeight)) : largest;
   });
+  for (const TileWork& work : tiles_) work_left_ += reach_work(work, kTileHeight);
+  work_left_ += edges.written;
   const std::uint32_t round = scrambled(pending.round);
   const auto tie = [&](std::size_t t) { return scrambled(static_cast<std::uint32_t>(tiles_[t].tile) ^ round); };
   const auto more_important = [&](std::size_t a, std::size_t b) {
@@ -96,9 +99,14 @@ EdgeCount SliceQueue::row_edges(const TileWork& work, int row) const noexcept {
                       grid.tile_width(work.tile));
 }
 
-SliceQueue::Slice SliceQueue::next(std::int64_t most_edges) {
+// Of so many rows of a tile. Sources of neighbouring tiles reach the same pixels: an upper bound.
+std::int64_t SliceQueue::reach_work(const TileWork& work, int rows) const noexcept {
+  const Kernel& largest = pending_.kernels.kernel(work.max_index);
+  return kReachedPixel * (kTileWidth + 2 * largest.radius_x) * (rows + 2 * largest.radius_y);
+}
+
+SliceQueue::Slice SliceQueue::next(std::int64_t most_edges, std::int64_t most_work) {
   Slice slice;
-  std::int64_t room = most_edges;
   const auto skip_done = [&](const std::vector<std::size_t>& order, std::size_t& at) {
     while (at < order.size() && rows_done_[order[at]] == kTileHeight) ++at;
     return at < order.size();
@@ -110,21 +118,28 @@ SliceQueue::Slice SliceQueue::next(std::int64_t most_edges) {
     const std::size_t t = waiting ? by_waiting_[next_waiting_] : by_importance_[next_important_];
     const TileWork& work = tiles_[t];
     TileWork part{work.tile, work.max_index, {}};
+    int rows = 0;
     for (; rows_done_[t] < kTileHeight; ++rows_done_[t]) {
       const int row = rows_done_[t];
       if (work.mask.rows[row] == 0) continue;
       const EdgeCount edges = row_edges(work, row);
       const bool first = slice.tiles.empty() && !part.mask.any();
-      if (!first && edges.written > room) break;
+      const std::int64_t with_row = slice.work + edges.written + reach_work(work, rows + 1);
+      if (!first && (slice.edges.written + edges.written > most_edges || with_row > most_work)) break;
       part.mask.rows[row] = work.mask.rows[row];
-      room -= edges.written;
+      ++rows;
       slice.edges.add(edges);
+      slice.work += edges.written;
     }
-    if (part.mask.any()) slice.tiles.push_back(part);
+    if (part.mask.any()) {
+      slice.tiles.push_back(part);
+      slice.work += reach_work(work, rows);
+    }
     if (rows_done_[t] < kTileHeight) break;
     --left_;
   }
   edges_left_.subtract(slice.edges);
+  work_left_ -= std::min(work_left_, slice.work);  // the reach of a tile in parts is more than that of the whole
   return slice;
 }
 
