@@ -34,6 +34,8 @@ Run add_preview_command(CLI::App& app) {
                  "file to save camera keys to (default: the one of --focus @FILE, or IN.keys.toml here)")
       ->group(group)
       ->type_name("FILE");
+  app.add_flag("--live", session.live, "take in frames that appear or are written again while the preview runs")
+      ->group(group);
   app.add_option("-o,--out", session.out, "what the shot is exported to: folder or pattern")->group(group);
   app.add_option("--record", session.record, "write all that is done to a script")->group(group)->type_name("FILE");
   app.add_option("--headless", a->headless, "do what a script says, without a window")

@@ -56,6 +56,11 @@ bool Engine::is_settled() const {
   return settled_ && orders_.empty();
 }
 
+bool Engine::is_ordered() const {
+  const std::lock_guard lock(mutex_);
+  return !orders_.empty();
+}
+
 bool Engine::is_newer_wanted(std::uint64_t id) const {
   const std::lock_guard lock(mutex_);
   return stop_ || wanted_.id > id;

@@ -56,6 +56,8 @@ class Engine {
   using Take = std::function<void(const Exact*, const std::string& problem)>;
   void finish(Wish wish, Take take);
 
+  bool is_ordered() const;  // pictures to finish() that are not delivered yet
+
   // Whether the last wish is done: exact, or as far as it goes, or given up.
   bool is_settled() const;
 

@@ -90,7 +90,8 @@ std::optional<std::size_t> FrameCache::next() const {
 void FrameCache::make_room(std::size_t bytes) {
   // How soon playing on from the centre gets there; the one just before it counts as near.
   const auto soon = [&](std::size_t i) {
-    return (i + 1) % count_ == centre_ ? std::size_t{0} : std::min(distance(i, centre_), (i + count_ - centre_) % count_);
+    return (i + 1) % count_ == centre_ ? std::size_t{0}
+                                       : std::min(distance(i, centre_), (i + count_ - centre_) % count_);
   };
   while (bytes_ + bytes > most_bytes_) {
     auto farthest = held_.end();

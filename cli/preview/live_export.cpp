@@ -29,6 +29,18 @@ imageio::Picture to_picture(const ColourImage& colour, float exposure) {
   return picture;
 }
 
+// As `filter` writes an EXR file, with all its channels; any other format holds the state window, with an exposure.
+void write_frame(const Shot& shot, const std::string& file, const Wish& wish, const ColourImage& colour,
+                 const Window& window, float exposure) {
+  if (!is_exr(file)) return imageio::write_picture(file, to_picture(colour, exposure));
+  const exr::SequenceFrame& from = shot.sequence().frames[wish.frame];
+  ShotFrame read;
+  shot.read(from, read, true);
+  exr::ExtraChannels scratch;
+  const FrameWriter writer(shot, *wish.camera, file, std::nullopt, {from.frame});
+  writer.write_colour(from.frame, read, wish.setup->method, colour, window, scratch);
+}
+
 }  // namespace
 
 void LiveSession::save_keys(const std::string& file) {
@@ -52,47 +64,31 @@ void LiveSession::autosave(double seconds) {
   }
 }
 
-// The engine makes the exact picture; another thread writes it. As `filter` writes an EXR file, with all its channels;
-// any other format holds the state window, with the exposure of the view.
+// The engine makes the exact picture; another thread writes it.
 void LiveSession::export_frame(const std::string& name) {
   if (name.empty()) throw Error(ErrorCode::usage, "export: give a file, such as frame.exr or frame.####.png");
   const std::string file = exr::Pattern::parse(name).path(number());
   if (is_exr(file)) {
-    const exr::OutputNames names(file, shot_.sequence().pattern, {number()});
+    const exr::OutputNames names(file, open_->shot.sequence().pattern, {number()});
     names.require_folder();
   }
   Wish wish = make_wish(false);
   const float exposure = look_.exposure;
-  engine_.finish(wish, [this, file, wish, exposure](const Exact* exact, const std::string& problem) {
-    const int number = shot_.sequence().frames[wish.frame].frame;
-    if (exact == nullptr) return say(fmt::format("{}: not written: frame {}: {}", file, number, problem), true);
-    jobs_.add([this, file, wish, exposure, colour = exact->colour, window = exact->window] {
-      write_frame(file, wish.frame, wish.camera, wish.setup, colour, window, exposure);
-    });
-  });
+  open_->engine.finish(
+      wish, [this, shot = open_->kept, file, wish, exposure](const Exact* exact, const std::string& problem) {
+        const int number = shot->sequence().frames[wish.frame].frame;
+        if (exact == nullptr) return say(fmt::format("{}: not written: frame {}: {}", file, number, problem), true);
+        jobs_.add([this, shot, file, wish, exposure, colour = exact->colour, window = exact->window] {
+          try {
+            write_frame(*shot, file, wish, colour, window, exposure);
+            say(fmt::format("wrote frame {} to {}", shot->sequence().frames[wish.frame].frame, file));
+          } catch (const std::exception& error) {
+            say(error.what(), true);
+          }
+        });
+      });
   wish.id = ++request_;  // and on from there
-  wish.hurried = false;
-  engine_.want(std::move(wish));
-}
-
-void LiveSession::write_frame(const std::string& file, std::size_t frame, std::shared_ptr<const Camera> camera,
-                              std::shared_ptr<const FilterSetup> setup, const ColourImage& colour, const Window& window,
-                              float exposure) {
-  try {
-    const exr::SequenceFrame& from = shot_.sequence().frames[frame];
-    if (is_exr(file)) {
-      ShotFrame read;
-      shot_.read(from, read, true);
-      exr::ExtraChannels scratch;
-      const FrameWriter writer(shot_, *camera, file, std::nullopt, {from.frame});
-      writer.write_colour(from.frame, read, setup->method, colour, window, scratch);
-    } else {
-      imageio::write_picture(file, to_picture(colour, exposure));
-    }
-    say(fmt::format("wrote frame {} to {}", from.frame, file));
-  } catch (const std::exception& error) {
-    say(error.what(), true);
-  }
+  open_->engine.want(std::move(wish));
 }
 
 void LiveSession::export_shot(const std::string& out) {
@@ -107,7 +103,7 @@ void LiveSession::export_shot(const std::string& out) {
   std::vector<std::string> words = filter_arguments(arguments_.input, arguments_.camera, choice_.keys, filter, out);
   words.insert(words.end(), {"--stats", "-", "--mkdir", "--skip-bad-frames"});
   shot_run_ = nullptr;
-  shot_run_ = std::make_unique<FilterProcess>(words, shot_.sequence().frames.size(), [this] { changed(); });
+  shot_run_ = std::make_unique<FilterProcess>(words, open_->shot.sequence().frames.size(), [this] { changed(); });
   say("writing the shot to " + out);
 }
 

@@ -25,15 +25,17 @@ std::string usual_keys_file(const std::string& input) {
 
 LiveSession::LiveSession(const PreviewArguments& arguments)
     : arguments_(arguments),
-      shot_(arguments.input, arguments.camera, exr::BadFrames::keep),
-      camera_(shot_.camera()),
-      choice_{shot_.camera().keys(), arguments.filter.kernel, arguments.filter.visibility},
-      saved_(choice_.keys),
+      camera_(arguments.camera),
       budget_text_(arguments.budget),
       keys_file_(arguments.keys),
       budget_(Budget::parse(arguments.budget)),
-      cache_(shot_, static_cast<std::size_t>(arguments.cache_mb * 1e6), [this] { engine_.on_read(); }),
-      engine_(shot_, cache_, [this] { changed(); }) {
+      live_(arguments.live),
+      open_(std::make_unique<OpenShot>(arguments.input, arguments.camera,
+                                       static_cast<std::size_t>(arguments.cache_mb * 1e6), [this] { changed(); })) {
+  camera_ = open_->shot.camera();
+  choice_ = {camera_.keys(), arguments.filter.kernel, arguments.filter.visibility};
+  saved_ = choice_.keys;
+  seen_ = open_->times;
   setup_ = make_setup(choice_);
   const std::optional<std::string>& focus = arguments.camera.focus;
   if (keys_file_.empty() && focus && focus->starts_with('@')) keys_file_ = focus->substr(1);
@@ -42,7 +44,7 @@ LiveSession::LiveSession(const PreviewArguments& arguments)
     record_.open(arguments.record);
     if (!record_) throw Error(ErrorCode::unwritable, "--record " + arguments.record + ": cannot be written");
   }
-  for (const auto& frame : shot_.sequence().frames) {
+  for (const auto& frame : open_->shot.sequence().frames) {
     if (!frame.problem.empty()) say(frame.problem, true);
   }
   autosaved_ = saved_;
@@ -56,7 +58,6 @@ LiveSession::LiveSession(const PreviewArguments& arguments)
 // Nothing is read any more, what is being filtered ends, what is to be written is written.
 LiveSession::~LiveSession() {
   on_change({});
-  cache_.stop();
   std::error_code ignored;
   if (!(autosaved_ == saved_)) std::filesystem::remove(autosave_file(keys_file_), ignored);
 }
@@ -65,7 +66,7 @@ std::shared_ptr<const FilterSetup> LiveSession::make_setup(const Choice& choice)
   FilterArguments filter = arguments_.filter;
   filter.kernel = choice.kernel;
   filter.visibility = choice.visibility;
-  const exr::FileInfo& first = shot_.sequence().first;
+  const exr::FileInfo& first = open_->shot.sequence().first;
   auto setup = std::make_shared<FilterSetup>();
   setup->options = filter_options(filter, {static_cast<double>(first.pixel_aspect), first.chromaticities, {}});
   setup->options.slice_edges = std::int64_t{1} << 24;  // pictures are shown by time, and larger slices scatter faster
@@ -78,7 +79,7 @@ Wish LiveSession::make_wish(bool hurried) {
   return {++request_, frame_, std::move(camera), setup_, budget_, refine_, hurried, look_};
 }
 
-void LiveSession::wish() { engine_.want(make_wish(holding_ || playing_)); }
+void LiveSession::wish() { open_->engine.want(make_wish(holding_ || playing_)); }
 
 void LiveSession::changed() const {
   std::function<void()> wake;
@@ -98,6 +99,7 @@ void LiveSession::say(std::string message, bool is_error) {
   {
     const std::lock_guard lock(mutex_);
     messages_.push_back((is_error ? "error: " : "") + message);
+    if (messages_.size() > 1000) messages_.erase(messages_.begin());  // a window takes none
     message_ = std::move(message);
     message_is_error_ = is_error;
     failures_ += is_error;
@@ -115,7 +117,7 @@ int LiveSession::failures() const {
   return failures_;
 }
 
-bool LiveSession::is_settled() const { return engine_.is_settled(); }
+bool LiveSession::is_settled() const { return open_->engine.is_settled(); }
 
 bool LiveSession::is_writing() const { return jobs_.waiting() > 0 || (shot_run_ && !shot_run_->is_over()); }
 
@@ -150,7 +152,7 @@ void LiveSession::go_to(std::size_t frame) {
 }
 
 std::size_t LiveSession::position_of(const std::string& text) const {
-  const auto& frames = shot_.sequence().frames;
+  const auto& frames = open_->shot.sequence().frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (std::to_string(frames[i].frame) == text) return i;
   }
@@ -163,14 +165,15 @@ std::size_t LiveSession::position_of(const std::string& text) const {
 void LiveSession::tick(double seconds) {
   watch_shot();
   if (arguments_.autosave) autosave(seconds);
+  look_for_files(seconds);
   if (!playing_) return;
   if (!play_start_) {
     play_start_ = seconds;
     play_from_ = frame_;
   }
   const auto passed = static_cast<std::size_t>(std::max(0., std::floor((seconds - *play_start_) * fps_)));
-  const std::size_t target = play_from_ + passed, count = shot_.sequence().frames.size();
-  if (target <= frame_ || engine_.shown()->request != request_) return;
+  const std::size_t target = play_from_ + passed, count = open_->shot.sequence().frames.size();
+  if (target <= frame_ || open_->engine.shown()->request != request_) return;
   if (target < count) {
     dropped_ += static_cast<std::int64_t>(target - frame_ - 1);
     return go_to(target);

@@ -8,12 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "preview/engine.h"
 #include "preview/filter_process.h"
-#include "preview/frame_cache.h"
 #include "preview/jobs.h"
+#include "preview/open_shot.h"
 #include "preview/session.h"
-#include "shot.h"
 
 namespace pullfocus::cli::preview {
 
@@ -24,6 +22,7 @@ struct PreviewArguments {
   std::string budget = "16ms";
   double cache_mb = 2048;
   std::string keys, out, record;  // files; empty: derived from the input's name, none, none
+  bool live = false;              // the folder is looked at for new frames
   bool autosave = false;          // unsaved keys go to autosave_file(), once a second
 };
 
@@ -67,7 +66,7 @@ class LiveSession final : public Session {
   };
   using Words = std::vector<std::string>;
 
-  int number() const { return shot_.sequence().frames[frame_].frame; }
+  int number() const { return open_->shot.sequence().frames[frame_].frame; }
   std::size_t position_of(const std::string& frame_text) const;
   void go_to(std::size_t frame);
   void say(std::string message, bool is_error = false);
@@ -92,14 +91,13 @@ class LiveSession final : public Session {
   void save_keys(const std::string& file);
   void autosave(double seconds);
   void export_frame(const std::string& name);
-  void write_frame(const std::string& file, std::size_t frame, std::shared_ptr<const Camera> camera,
-                   std::shared_ptr<const FilterSetup> setup, const ColourImage& colour, const Window& window,
-                   float exposure);
   void export_shot(const std::string& out);
+  void look_for_files(double seconds);
+  void look_at_folder(const exr::Pattern& pattern, const FileTimes& opened);  // on the jobs' thread
+  void take_over_new_shot();
   void watch_shot();
 
   const PreviewArguments arguments_;
-  const Shot shot_;
   Camera camera_;
   Choice choice_;
   CameraKeys saved_, autosaved_;
@@ -114,6 +112,10 @@ class LiveSession final : public Session {
   std::size_t frame_ = 0;
   std::uint64_t request_ = 0;
 
+  bool live_ = false;     // files are looked for
+  double looked_at_ = 0;  // seconds
+  FileTimes seen_;        // of the jobs' thread: when last looked
+
   bool playing_ = false, loop_ = true;
   double fps_ = 24;
   std::optional<double> play_start_;
@@ -126,11 +128,11 @@ class LiveSession final : public Session {
   std::string message_;
   bool message_is_error_ = false;
   int failures_ = 0;
+  std::unique_ptr<OpenShot> new_shot_;  // waits to be taken over
 
   std::ofstream record_;
-  FrameCache cache_;
-  Jobs jobs_;  // after the engine, which adds to them
-  Engine engine_;
+  Jobs jobs_;                       // outlive the engine, which adds to them
+  std::unique_ptr<OpenShot> open_;  // another one only while nothing is written of it
   std::unique_ptr<FilterProcess> shot_run_;
 };
 

@@ -28,8 +28,8 @@ std::optional<KeyedValue>& LiveSession::setting(CameraKeys& keys, const std::str
 }
 
 const exr::FileInfo& LiveSession::file_now() const {
-  const FrameCache::Entry entry = cache_.look(frame_);
-  return entry.frame ? entry.frame->file : shot_.sequence().first;
+  const FrameCache::Entry entry = open_->cache.look(frame_);
+  return entry.frame ? entry.frame->file : open_->shot.sequence().first;
 }
 
 std::optional<double> LiveSession::value_now(const std::string& name) const { return setting_now(name).value; }
@@ -78,12 +78,12 @@ void LiveSession::focus_at(const Words& words) {
   }
   CameraKeys keys = choice_.keys;
   setting(keys, "focus");
-  const Window& w = shot_.state_window();
+  const Window& w = open_->shot.state_window();
   if (!w.contains(x, y)) {
     throw Error(ErrorCode::usage, fmt::format("focus-at {},{} lies outside the picture: x is {} to {}, y {} to {}", x,
                                               y, w.x0, w.x1 - 1, w.y0, w.y1 - 1));
   }
-  const FrameCache::Entry entry = cache_.look(frame_);
+  const FrameCache::Entry entry = open_->cache.look(frame_);
   if (!entry.frame) throw Error(ErrorCode::content, fmt::format("focus-at: frame {} is not read yet", number()));
   set("focus", fmt::format("{}", focus_distance_at(entry.frame->frame, camera_.depth_kind(), x, y)));
 }

@@ -22,19 +22,19 @@ std::size_t memory_of_process() {
 
 Snapshot LiveSession::snapshot() {
   Snapshot s;
-  s.shown = engine_.shown();
+  s.shown = open_->engine.shown();
   s.request = request_;
-  s.frames = shot_.frame_numbers();
-  s.loaded = cache_.loaded();
+  s.frames = open_->shot.frame_numbers();
+  s.loaded = open_->cache.loaded();
   s.frame = frame_;
-  const FrameCache::Entry entry = cache_.look(frame_);
+  const FrameCache::Entry entry = open_->cache.look(frame_);
   s.loading = !entry.frame && entry.problem.empty();
-  const Window& window = shot_.state_window();
+  const Window& window = open_->shot.state_window();
   s.window_x0 = window.x0;
   s.window_y0 = window.y0;
   s.width = window.width();
   s.height = window.height();
-  s.pixel_aspect = static_cast<double>(shot_.sequence().first.pixel_aspect);
+  s.pixel_aspect = static_cast<double>(open_->shot.sequence().first.pixel_aspect);
 
   s.keys = choice_.keys;
   s.has_lens = camera_.depth_kind() != DepthKind::coc;
@@ -48,6 +48,7 @@ Snapshot LiveSession::snapshot() {
   s.look = look_;
   s.playing = playing_;
   s.loop = loop_;
+  s.live = live_;
   s.fps = fps_;
   s.dropped = dropped_;
   s.unsaved = !(choice_.keys == saved_);
@@ -66,7 +67,7 @@ Snapshot LiveSession::snapshot() {
   if (shot_run_ && !shot_run_->is_over()) s.job = shot_run_->share_done();
   s.writing = jobs_.waiting();
   s.memory_bytes = memory_of_process();
-  s.title = shot_.sequence().pattern.text();
+  s.title = open_->shot.sequence().pattern.text();
   const std::lock_guard lock(mutex_);
   s.message = message_;
   s.message_is_error = message_is_error_;
@@ -75,9 +76,9 @@ Snapshot LiveSession::snapshot() {
 
 Probe LiveSession::probe(int x, int y) {
   Probe probe;
-  const std::shared_ptr<const Shown> shown = engine_.shown();
-  const std::shared_ptr<const ShotFrame> frame = cache_.look(shown->frame).frame;
-  const Window& w = shot_.state_window();
+  const std::shared_ptr<const Shown> shown = open_->engine.shown();
+  const std::shared_ptr<const ShotFrame> frame = open_->cache.look(shown->frame).frame;
+  const Window& w = open_->shot.state_window();
   x += w.x0;
   y += w.y0;
   if (!frame || !w.contains(x, y)) return probe;
@@ -86,7 +87,7 @@ Probe LiveSession::probe(int x, int y) {
   probe.background = is_background(camera_.depth_kind(), probe.depth);
   for (int c = 0; c < 4; ++c) probe.colour[c] = frame->frame.colour.get(x, y, c);
   try {
-    const CocFunction coc = camera_.coc(shot_.sequence().frames[shown->frame].frame, frame->file);
+    const CocFunction coc = camera_.coc(open_->shot.sequence().frames[shown->frame].frame, frame->file);
     probe.coc = probe.background ? coc.background() : coc(probe.depth);
     probe.has_coc = true;
   } catch (const Error&) {  // the camera is not complete

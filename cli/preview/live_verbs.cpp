@@ -54,15 +54,15 @@ const std::vector<LiveSession::Verb>& LiveSession::verbs() {
       {"step", "N", "go N frames ahead, negative: back", 1, 1,
        [](S& s, W w) {
          const double n = number_in(w[0], -1e6, 1e6, "step") + static_cast<double>(s.frame_);
-         s.go_to(
-             static_cast<std::size_t>(std::clamp(n, 0., static_cast<double>(s.shot_.sequence().frames.size() - 1))));
+         s.go_to(static_cast<std::size_t>(
+             std::clamp(n, 0., static_cast<double>(s.open_->shot.sequence().frames.size() - 1))));
        }},
       {"play", "", "play from the current frame on", 0, 0,
        [](S& s, W) {
          s.playing_ = true;
          s.play_start_.reset();
          s.dropped_ = 0;
-         if (s.frame_ + 1 == s.shot_.sequence().frames.size()) s.go_to(0);
+         if (s.frame_ + 1 == s.open_->shot.sequence().frames.size()) s.go_to(0);
          s.wish();
        }},
       {"pause", "", "stop playing", 0, 0,
@@ -151,9 +151,11 @@ const std::vector<LiveSession::Verb>& LiveSession::verbs() {
          if (w[0] != "off") s.look_.wipe = static_cast<float>(number_in(w[0], 0, 1, "wipe"));
          s.wish();
        }},
+      {"live", "on|off", "whether files that are new or written again are taken in", 1, 1,
+       [](S& s, W w) { s.live_ = on_or_off(w[0], "live"); }},
       {"reload", "", "read the current frame's file again", 0, 0,
        [](S& s, W) {
-         s.cache_.forget(s.frame_);
+         s.open_->cache.forget(s.frame_);
          s.wish();
        }},
 

@@ -79,7 +79,7 @@ struct Snapshot {
   bool refine = true;
   Look look;
 
-  bool playing = false, loop = true;
+  bool playing = false, loop = true, live = false;
   double fps = 24;
   std::int64_t dropped = 0;  // frames, since playing began
 

@@ -40,6 +40,10 @@ void Ui::draw_timeline() {
   bool loop = now_.loop;
   if (ImGui::Checkbox("loop", &loop)) act("loop", {loop ? "on" : "off"});
   ImGui::SameLine();
+  bool live = now_.live;
+  if (ImGui::Checkbox("live", &live)) act("live", {live ? "on" : "off"});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("take in frames as they are written");
+  ImGui::SameLine();
   float fps = static_cast<float>(now_.fps);
   ImGui::SetNextItemWidth(80);
   if (ImGui::DragFloat("fps", &fps, 0.25f, 1, 120, "%.4g"))

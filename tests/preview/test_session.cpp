@@ -167,6 +167,48 @@ TEST_F(SessionTest, ClosesInTheMiddleOfAnything) {
   }
 }
 
+TEST(SessionOfALiveFolder, TakesInFramesThatAppearOrAreWrittenAgainAndKeepsTheRest) {
+  const LiveShot files(2);
+  PreviewArguments arguments = files.arguments();
+  arguments.live = true;
+  LiveSession session(arguments);
+  session.perform(parse_action("frame 2"));
+  session.perform(parse_action("key focus 2 2.5"));
+  settle(session);
+  double time = 1e7;  // later than settle() says
+  const auto lives_until = [&](auto&& done) {
+    for (int i = 0; i < 5000 && !done(); ++i) {
+      session.tick(time += 2);  // time flies
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ASSERT_TRUE(done());
+    settle(session);
+  };
+  const std::uint64_t before = session.snapshot().request;
+  for (int i = 0; i < 20; ++i) session.tick(1e6 + 2 * i);
+  EXPECT_EQ(session.snapshot().request, before) << "nothing new";
+
+  pullfocus::test::write_shot(files.folder, 3, 5);
+  lives_until([&] { return session.snapshot().frames.size() == 5; });
+  EXPECT_EQ(session.snapshot().frames[session.snapshot().frame], 2) << "the frame stays";
+  EXPECT_EQ(session.snapshot().focus.value, 2.5);
+  EXPECT_NE(session.snapshot().message.find("3-5"), std::string::npos) << session.snapshot().message;
+  session.perform(parse_action("frame 5"));
+  settle(session);
+  EXPECT_TRUE(session.snapshot().shown->exact);
+
+  pullfocus::test::write_shot(files.folder, 5, 5);
+  const auto written = std::filesystem::last_write_time(files.folder / "shot.0005.exr");
+  std::filesystem::last_write_time(files.folder / "shot.0005.exr", written + std::chrono::seconds(7));
+  lives_until([&] { return session.snapshot().message.find("read again") != std::string::npos; });
+  EXPECT_TRUE(session.snapshot().shown->exact);
+
+  session.perform(parse_action("live off"));
+  std::filesystem::remove(files.folder / "shot.0001.exr");
+  for (int i = 0; i < 100; ++i) session.tick(time += 2);
+  EXPECT_EQ(session.snapshot().frames.size(), 5u);
+}
+
 TEST(SessionOfABadShot, OpensWithAFrameThatCannotBeRead) {
   const LiveShot files(3);
   std::ofstream(files.folder / "shot.0002.exr") << "no picture";

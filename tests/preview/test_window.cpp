@@ -174,7 +174,10 @@ TEST_F(PreviewWindow, FocusesDragsSetsKeysPlaysAndExportsTheStarShotAsFilterDoes
   const std::string shot = folder / "star/star-lateral.####.exr";
   ASSERT_EQ(
       pullfocus::test::run("render star-lateral -o '" + (folder / "star") + "' --size 256x160 --frames 1-12").code, 0);
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(static_cast<std::string>(folder / ""));
   opens("'" + shot + "' --fstop 2 --focal-length 50 --focus 2");
+  std::filesystem::current_path(before);
   const Place star = place(128, 80, 256, 160), wall = place(20, 20, 256, 160);
   drags(wall.x, wall.y, star.x, star.y);
   const std::string dragged = done("release");
@@ -196,15 +199,23 @@ TEST_F(PreviewWindow, FocusesDragsSetsKeysPlaysAndExportsTheStarShotAsFilterDoes
   presses("Right");
   presses("2");
   presses("1");
+  presses("e");
+  done("export preview.####.exr");
+  waits_for(folder / "preview.0003.exr");
   presses("ctrl+s");
   done("save-keys");
   waits_for(folder / "keys.toml");
   presses("ctrl+q");
   EXPECT_EQ(window->wait(60), 0) << read(folder / "window.log");
   EXPECT_EQ(read(folder / "window.log"), "");
+  ASSERT_EQ(pullfocus::test::run("filter '" + shot + "' -o '" + (folder / "ref.exr") +
+                                 "' --frames 3 --fstop 2 --focal-length 50 --focus '@" + (folder / "keys.toml") + "'")
+                .code,
+            0);
+  EXPECT_EQ(exr::test::file_bytes(folder / "preview.0003.exr"), exr::test::file_bytes(folder / "ref.exr"));
 }
 
-TEST_F(PreviewWindow, ExportsTheFrameThatFilterMakes) {
+TEST_F(PreviewWindow, DoesTheSameWithTheBeachballAndAsksAboutKeysThatAreNotSaved) {
   const std::string data = shared_data("beachball/singlepart.0001.exr");
   if (data.empty()) GTEST_SKIP() << "../shared/data/beachball is not there";
   const std::string input = fmt::format("'{}####.exr' --view left", data.substr(0, data.size() - 8));
@@ -215,6 +226,19 @@ TEST_F(PreviewWindow, ExportsTheFrameThatFilterMakes) {
   drags(ball.x, ball.y, ball.x + 20, ball.y + 10);
   done("release");
   presses("k");
+  presses("End");
+  done("frame 4");
+  pause_ms(1000);
+  const Place rim = place(850, 600, 2310, 1556);
+  drags(rim.x, rim.y, rim.x + 4, rim.y);
+  presses("k");
+  presses("Home");
+  presses("space");
+  done("play");
+  pause_ms(2000);
+  presses("space");
+  done("pause");
+  presses("Home");
   presses("Right");
   done("step 1");
   pause_ms(500);
