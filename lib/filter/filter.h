@@ -13,8 +13,8 @@
 namespace pullfocus {
 
 // Asked at every slice border, from the thread that called filter(); true ends the call early. To stop from another
-// thread, let it read a std::stop_token or an atomic flag. A rebuild has no slices: with a stop request it is chosen only
-// where there is a time budget too, and it will end within that.
+// thread, let it read a std::stop_token or an atomic flag. A rebuild has no slices: with a stop request it is chosen
+// only where there is a time budget too, and it will end within that.
 using StopRequest = std::function<bool()>;
 
 // One shot at a time; not to be called from two threads at once. Colour is premultiplied, scene-linear RGBA.
