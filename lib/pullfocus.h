@@ -8,7 +8,7 @@
 //   importance/  what changed against the committed state, how noticeable it is, which of it a budget affords
 //   scatter/     KernelShape; kernels as run edges; sources into destination bands
 //   resolve/     sums of weighted colour divided by sums of weight; layers laid front to back
-//   filter/      LinearFilter and IncrementalFilter behind one interface; Stats; the Plan; explain()
+//   filter/      LinearFilter and IncrementalFilter behind one interface; Stats, LeftOver; the Plan; explain()
 //   metrics/     how far two pictures are apart: RMSE, PSNR, relative MSE, SSIM, FLIP
 //
 // Files are none of the core's business: exr/ (a library of its own) reads and writes sequences.
@@ -35,6 +35,7 @@
 #include "camera/thin_lens.h"
 #include "filter/explain.h"
 #include "filter/filter.h"
+#include "filter/left_over.h"
 #include "filter/options.h"
 #include "filter/plan.h"
 #include "filter/stats.h"

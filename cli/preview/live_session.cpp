@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "image/error.h"
 
@@ -82,16 +83,12 @@ Wish LiveSession::make_wish(bool hurried) {
 void LiveSession::wish() { open_->engine.want(make_wish(holding_ || playing_)); }
 
 void LiveSession::changed() const {
-  std::function<void()> wake;
-  {
-    const std::lock_guard lock(mutex_);
-    wake = wake_;
-  }
-  if (wake) wake();
+  const std::lock_guard lock(waking_);
+  if (wake_) wake_();
 }
 
 void LiveSession::on_change(std::function<void()> wake) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(waking_);
   wake_ = std::move(wake);
 }
 

@@ -122,8 +122,10 @@ class LiveSession final : public Session {
   std::size_t play_from_ = 0;
   std::int64_t dropped_ = 0;
 
-  mutable std::mutex mutex_;  // of the following
+  mutable std::mutex waking_;  // held while wake_ is called: it is not once on_change() has returned
   std::function<void()> wake_;
+
+  mutable std::mutex mutex_;  // of the following
   std::vector<std::string> messages_;
   std::string message_;
   bool message_is_error_ = false;

@@ -24,7 +24,8 @@ class Session {
   // Lets time pass: playing goes on. Seconds since any fixed time.
   virtual void tick(double seconds) = 0;
 
-  // `wake` is called from any thread when the snapshot has changed; empty: nobody is.
+  // `wake` is called from any thread when the snapshot has changed; empty: nobody is. What was given before is not
+  // called any more once this has returned. It must not call the session.
   virtual void on_change(std::function<void()> wake) = 0;
 };
 

@@ -45,7 +45,7 @@ void Ui::draw_picture() {
                       area_corner_.y + area_size_.y / 2 - centre_.y * zoom_};
   const ImVec2 size{width * zoom_ * aspect, height * zoom_};
   if (now_.shown->picture) {
-    texture_.show(*now_.shown->picture, now_.shown->picture_id);
+    texture_.show(now_.shown->picture);
     texture_.use_squares(zoom_ > 2);
     list->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture_.name())), corner,
                    {corner.x + size.x, corner.y + size.y});

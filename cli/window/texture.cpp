@@ -5,8 +5,8 @@
 
 namespace pullfocus::cli::preview {
 
-void Texture::show(const Picture& picture, std::uint64_t id) {
-  if (name_ != 0 && id == id_) return;
+void Texture::show(const std::shared_ptr<const Picture>& picture) {
+  if (name_ != 0 && picture == picture_) return;
   if (name_ == 0) {
     glGenTextures(1, &name_);
     glBindTexture(GL_TEXTURE_2D, name_);
@@ -17,14 +17,14 @@ void Texture::show(const Picture& picture, std::uint64_t id) {
   }
   glBindTexture(GL_TEXTURE_2D, name_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  if (picture.width == width_ && picture.height == height_) {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+  if (picture->width == width_ && picture->height == height_) {
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture->rgba.data());
   } else {
-    width_ = picture.width;
-    height_ = picture.height;
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width_, height_, 0, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+    width_ = picture->width;
+    height_ = picture->height;
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width_, height_, 0, GL_RGBA, GL_UNSIGNED_BYTE, picture->rgba.data());
   }
-  id_ = id;
+  picture_ = picture;
 }
 
 void Texture::use_squares(bool squares) {
@@ -37,6 +37,7 @@ void Texture::use_squares(bool squares) {
 void Texture::release() {
   if (name_ != 0) glDeleteTextures(1, &name_);
   name_ = 0;
+  picture_.reset();
 }
 
 }  // namespace pullfocus::cli::preview

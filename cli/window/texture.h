@@ -1,7 +1,7 @@
 // A picture in the graphics card's memory.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 
 #include "preview/state.h"
 
@@ -14,8 +14,8 @@ class Texture {
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
 
-  // Sends the picture there, if it is another one than the last. `id`: another number, another picture.
-  void show(const Picture& picture, std::uint64_t id);
+  // Sends the picture there, if it is another one than the last.
+  void show(const std::shared_ptr<const Picture>& picture);
   // Pixels as squares, for looking at them; or blended.
   void use_squares(bool squares);
   void release();
@@ -24,7 +24,7 @@ class Texture {
 
  private:
   unsigned name_ = 0;
-  std::uint64_t id_ = 0;
+  std::shared_ptr<const Picture> picture_;
   int width_ = 0, height_ = 0;
   bool squares_ = false;
 };

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "filter/assess.h"
 #include "filter/call.h"
 #include "resolve/held_out.h"
 #include "resolve/resolve.h"

@@ -1,4 +1,4 @@
-#include "filter/left_over.h"
+#include "filter/assess.h"
 
 #include <tbb/parallel_for.h>
 
