@@ -175,7 +175,6 @@ void Engine::show(const Wish& wish) {
   const Frame& frame = frame_->frame;
   if (has_result_) {
     now_.exact = complete_;
-    now_.stats = refinement_.stats();
     now_.calls = refinement_.calls();
     now_.first_ms = refinement_.first_ms();
     now_.total_ms = refinement_.total_ms();

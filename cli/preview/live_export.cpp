@@ -97,10 +97,8 @@ void LiveSession::export_shot(const std::string& out) {
   if (shot_run_ && !shot_run_->is_over()) {
     throw Error(ErrorCode::usage, "export-shot: a shot is being written: wait for it, or cancel");
   }
-  FilterArguments filter = arguments_.filter;
-  filter.kernel = choice_.kernel;
-  filter.visibility = choice_.visibility;
-  std::vector<std::string> words = filter_arguments(arguments_.input, arguments_.camera, choice_.keys, filter, out);
+  std::vector<std::string> words =
+      filter_arguments(arguments_.input, arguments_.camera, choice_.keys, filter_of(choice_), out);
   words.insert(words.end(), {"--stats", "-", "--mkdir", "--skip-bad-frames"});
   shot_run_ = nullptr;
   shot_run_ = std::make_unique<FilterProcess>(words, open_->shot.sequence().frames.size(), [this] { changed(); });

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
 #include "image/error.h"
@@ -56,20 +58,27 @@ LiveSession::LiveSession(const PreviewArguments& arguments)
   wish();
 }
 
-// Nothing is read any more, what is being filtered ends, what is to be written is written.
+// What is to be exported is still made exact and written; then nothing is read any more, and what is being filtered
+// ends.
 LiveSession::~LiveSession() {
   on_change({});
+  while (open_->engine.is_ordered()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   std::error_code ignored;
   if (!(autosaved_ == saved_)) std::filesystem::remove(autosave_file(keys_file_), ignored);
 }
 
-std::shared_ptr<const FilterSetup> LiveSession::make_setup(const Choice& choice) const {
+FilterArguments LiveSession::filter_of(const Choice& choice) const {
   FilterArguments filter = arguments_.filter;
   filter.kernel = choice.kernel;
   filter.visibility = choice.visibility;
+  return filter;
+}
+
+std::shared_ptr<const FilterSetup> LiveSession::make_setup(const Choice& choice) const {
   const exr::FileInfo& first = open_->shot.sequence().first;
   auto setup = std::make_shared<FilterSetup>();
-  setup->options = filter_options(filter, {static_cast<double>(first.pixel_aspect), first.chromaticities, {}});
+  setup->options =
+      filter_options(filter_of(choice), {static_cast<double>(first.pixel_aspect), first.chromaticities, {}});
   setup->options.slice_edges = std::int64_t{1} << 24;  // pictures are shown by time, and larger slices scatter faster
   setup->method = describe_method("incremental", setup->options);
   return setup;
@@ -116,7 +125,9 @@ int LiveSession::failures() const {
 
 bool LiveSession::is_settled() const { return open_->engine.is_settled(); }
 
-bool LiveSession::is_writing() const { return jobs_.waiting() > 0 || (shot_run_ && !shot_run_->is_over()); }
+bool LiveSession::is_writing() const {
+  return jobs_.waiting() > 0 || open_->engine.is_ordered() || (shot_run_ && !shot_run_->is_over());
+}
 
 void LiveSession::use(const Choice& choice) {
   if (choice.kernel != choice_.kernel || choice.visibility != choice_.visibility) setup_ = make_setup(choice);

@@ -76,11 +76,11 @@ class LiveSession final : public Session {
   void use(const Choice& choice);
   void wish();  // of the engine, with everything as it is now
   Wish make_wish(bool hurried);
+  FilterArguments filter_of(const Choice& choice) const;
   std::shared_ptr<const FilterSetup> make_setup(const Choice& choice) const;
 
   std::optional<KeyedValue>& setting(CameraKeys& keys, const std::string& name) const;
   void set(const std::string& name, const std::string& text);
-  std::optional<double> value_now(const std::string& name) const;
   SettingNow setting_now(const std::string& name) const;
   const exr::FileInfo& file_now() const;
   void focus_at(const Words& words);

@@ -32,8 +32,6 @@ const exr::FileInfo& LiveSession::file_now() const {
   return entry.frame ? entry.frame->file : open_->shot.sequence().first;
 }
 
-std::optional<double> LiveSession::value_now(const std::string& name) const { return setting_now(name).value; }
-
 SettingNow LiveSession::setting_now(const std::string& name) const {
   const CameraKeys& keys = choice_.keys;
   const std::optional<KeyedValue>& given = name == "focus"   ? keys.focus
@@ -103,7 +101,7 @@ void LiveSession::set_key(const Words& words) {
     if (!typed.is_constant()) throw Error(ErrorCode::usage, "key: '" + words[2] + "' is not one value");
     value = typed.linear_at(0);
   } else {
-    const std::optional<double> now = value_now(name);
+    const std::optional<double> now = setting_now(name).value;
     if (!now) throw Error(ErrorCode::usage, "key: " + name + " has no value yet: set it first");
     value = *now;
   }
@@ -126,7 +124,7 @@ void LiveSession::remove_key(const Words& words) {
     throw Error(ErrorCode::usage, "unkey: '" + words[1] + "' is neither a frame number nor 'all'");
   }
   std::vector<Key> keys = target->keys();
-  const double value = value_now(name).value_or(keys.front().value);
+  const double value = setting_now(name).value.value_or(keys.front().value);
   if (!all && std::erase_if(keys, [&](const Key& key) { return key.frame == frame; }) == 0) {
     throw Error(ErrorCode::usage, fmt::format("unkey: {} has no key at frame {}", name, frame));
   }

@@ -55,17 +55,10 @@ Snapshot LiveSession::snapshot() {
   s.can_undo = !undo_.empty();
   s.can_redo = !redo_.empty();
   s.keys_file = keys_file_;
-  s.command_line = shell_line(filter_arguments(
-      arguments_.input, arguments_.camera, choice_.keys,
-      [&] {
-        FilterArguments filter = arguments_.filter;
-        filter.kernel = choice_.kernel;
-        filter.visibility = choice_.visibility;
-        return filter;
-      }(),
-      arguments_.out.empty() ? "OUT/" : arguments_.out));
+  s.command_line = shell_line(filter_arguments(arguments_.input, arguments_.camera, choice_.keys, filter_of(choice_),
+                                               arguments_.out.empty() ? "OUT/" : arguments_.out));
   if (shot_run_ && !shot_run_->is_over()) s.job = shot_run_->share_done();
-  s.writing = jobs_.waiting();
+  s.writing = jobs_.waiting() + (open_->engine.is_ordered() ? 1 : 0);
   s.memory_bytes = memory_of_process();
   s.title = open_->shot.sequence().pattern.text();
   const std::lock_guard lock(mutex_);

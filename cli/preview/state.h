@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "filter/left_over.h"
-#include "filter/stats.h"
 #include "key_file.h"
 
 namespace pullfocus::cli::preview {
@@ -41,7 +40,6 @@ struct Shown {
   std::uint64_t picture_id = 0;            // another number, another picture
   bool exact = false;                      // nothing is left over
   LeftOver left;                           // empty if exact
-  Stats stats;                             // of the last call
   double first_ms = 0, total_ms = 0;       // filter time for this frame and lens: to the first picture, up to now
   int calls = 0;                           // of the filter for these
   float depth_near = 0, depth_far = 0;     // of the frame's surfaces; 0: it has none

@@ -54,7 +54,7 @@ void Ui::draw_picture() {
     const float x = corner.x + *now_.look.wipe * size.x;
     list->AddLine({x, corner.y}, {x, corner.y + size.y}, IM_COL32(255, 255, 255, 160));
   }
-  drag_picture(corner, size);
+  drag_picture();
   if (ImGui::IsItemHovered()) draw_reading(picture_pixel(ImGui::GetIO().MousePos));
   if (now_.loading) {
     list->AddText({area_corner_.x + 12, area_corner_.y + 12}, IM_COL32(255, 220, 120, 255),
@@ -64,7 +64,7 @@ void Ui::draw_picture() {
 }
 
 // Left: focus on what is there; with Ctrl, open or close the aperture. Middle or right: move the picture. Wheel: zoom.
-void Ui::drag_picture(ImVec2, ImVec2) {
+void Ui::drag_picture() {
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered() && io.MouseWheel != 0) keep_zoom(io.MousePos, zoom_ * std::exp2(io.MouseWheel / 3));
   if (ImGui::IsItemActivated()) {

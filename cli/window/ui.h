@@ -29,7 +29,7 @@ class Ui {
 
   void draw_picture();
   ImVec2 picture_pixel(ImVec2 screen) const;  // of the state window, from its corner
-  void drag_picture(ImVec2 corner, ImVec2 size);
+  void drag_picture();
   void keep_zoom(ImVec2 screen, float zoom);
   void draw_reading(ImVec2 pixel);
 

@@ -165,6 +165,9 @@ TEST_F(SessionTest, ClosesInTheMiddleOfAnything) {
     if (i % 2 == 0) other.perform(parse_action("export " + (files.folder / ("closing." + std::to_string(i) + ".exr"))));
     if (i % 3 == 0) other.tick(i);
   }
+  for (int i = 0; i < 20; i += 2) {
+    EXPECT_TRUE(std::filesystem::exists(files.folder / ("closing." + std::to_string(i) + ".exr"))) << "nothing is lost";
+  }
 }
 
 TEST(SessionOfALiveFolder, TakesInFramesThatAppearOrAreWrittenAgainAndKeepsTheRest) {
