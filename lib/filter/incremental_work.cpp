@@ -28,8 +28,10 @@ std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector
   queue_.reset();
   if (cheaper || !sums_kept_) {
     edges_ += edges.committed;
-    no_longer_uncommitted(selected);
     commit(*frame_, core_.sanitiser, pending_, selected, state_);
+    if (uncommitted_ > 0) {  // nothing to mark: a rebuild resolves everything
+      uncommitted_ = std::count(state_.index.begin(), state_.index.end(), kNeverCommitted);
+    }
     rebuild(selected, cheaper, call);
   } else {
     update(selected, edges);
