@@ -41,6 +41,10 @@ struct EdgePlan {
   bool has_zeros = false;            // one more row, of zeros: for columns of chains without an edge
   ChainList chains[2][kMaxChain];    // by falling/rising and length - 1
 
+  std::size_t value_rows() const noexcept {
+    return weights.size() + differences.size() + sums.size() + (has_zeros ? 1 : 0);
+  }
+
   // Chains of rows [dy0, dy1), -radius_y <= dy0 <= dy1 <= radius_y + 1.
   std::span<const EdgeChain> rows(bool rising, int length, int dy0, int dy1) const noexcept {
     const ChainList& list = chains[rising][length - 1];

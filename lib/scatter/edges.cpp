@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "scatter/lanes-inl.h"
+#include "scatter/value_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pullfocus {
@@ -28,63 +28,6 @@ struct Group {
   std::uint32_t members;
   int x, y;
 };
-
-// Zero where no member is.
-template <int lanes, int width>
-HWY_INLINE const double* Values(const double* values, std::uint32_t members, double* HWY_RESTRICT out) {
-  if (members == (1u << width) - 1) return values;
-  std::fill_n(out, width * lanes, 0.0);
-  for (; members != 0; members &= members - 1) {
-    const int at = std::countr_zero(members) * lanes;
-    ForEachPart<lanes>([&](auto d, int i) HWY_ATTR {
-      const hn::Repartition<double, decltype(d)> df;
-      hn::StoreU(hn::LoadU(df, values + at + i), df, out + at + i);
-    });
-  }
-  return out;
-}
-
-// Writes the plan's value rows of the group, width * lanes values each.
-template <int lanes, int width, RowKind kind>
-HWY_INLINE void ValueRows(const EdgePlan& plan, const Group& group, Accumulator* HWY_RESTRICT out) {
-  constexpr int n = width * lanes, stride = kStride<lanes, width>;
-  alignas(64) double plus_of_members[n], minus_of_members[n];
-  const double* const plus = Values<lanes, width>(group.plus, group.members, plus_of_members);
-  const double* const minus =
-      kind == RowKind::plain ? nullptr : Values<lanes, width>(group.minus, group.members, minus_of_members);
-  Accumulator* values = out;
-  const auto next_row = [&](auto value) HWY_ATTR {
-    std::fill_n(values - kPad, kPad, Accumulator{0});
-    ForEachPart<n>([&](auto d, int i) HWY_ATTR { hn::StoreU(value(d, i), d, values + i); });
-    values += stride;
-  };
-  for (std::size_t k = 0; k < plan.of_plus; ++k) {
-    const double weight = plan.weights[k];
-    next_row([&](auto d, int i) HWY_ATTR {
-      return Contribution<kind == RowKind::recoloured>(hn::Repartition<double, decltype(d)>(), plus + i, minus + i,
-                                                       weight);
-    });
-  }
-  if constexpr (kind == RowKind::moved) {
-    for (std::size_t k = plan.of_plus; k < plan.weights.size(); ++k) {
-      const double weight = plan.weights[k];
-      next_row([&](auto d, int i) HWY_ATTR {
-        return hn::Sub(hn::Zero(d),
-                       Contribution<false>(hn::Repartition<double, decltype(d)>(), minus + i, nullptr, weight));
-      });
-    }
-  }
-  for (const RowPair& pair : plan.differences) {
-    const Accumulator *const a = out + pair.a * stride, *const b = out + pair.b * stride;
-    next_row([&](auto d, int i) HWY_ATTR { return hn::Sub(hn::LoadU(d, a + i), hn::LoadU(d, b + i)); });
-  }
-  for (const RowPair& pair : plan.sums) {
-    const Accumulator *const a = out + pair.a * stride, *const b = out + pair.b * stride;
-    next_row([&](auto d, int i) HWY_ATTR { return hn::Add(hn::LoadU(d, a + i), hn::LoadU(d, b + i)); });
-  }
-  if (plan.has_zeros) next_row([](auto d, int) HWY_ATTR { return hn::Zero(d); });
-  std::fill_n(values - kPad, kPad, Accumulator{0});
-}
 
 // `row_step`: accumulators from a kernel row to the next; `first_row` is at the source's column, in row dy0.
 struct Place {
@@ -129,7 +72,7 @@ void WriteGroup(const EdgePlan& plan, const Group& group, const BandImage& image
   if (from >= to) return;
   alignas(64) Accumulator memory[kPad + kMostValueRows * kStride<lanes, width>];
   Accumulator* const values = memory + kPad;
-  ValueRows<lanes, width, kind>(plan, group, values);
+  ValueRows<lanes, width, kind, kStride<lanes, width>, kPad>(plan, group.plus, group.minus, group.members, values);
   // Kernel rows lie in the band as they do in the kernel: it is the source that is mirrored.
   const bool up = image.direction > 0;
   const Place place{band.row(image.band_row(up ? from : to - 1)) + static_cast<std::ptrdiff_t>(group.x) * lanes,
@@ -150,25 +93,12 @@ HWY_INLINE void WriteGroupOf(int width, const EdgePlan& plan, const Group& group
   }
 }
 
-// Bit i: index[i] == index[0], of kWindow values.
-HWY_INLINE std::uint32_t LikeFirst(const std::int16_t* index) {
-  const hn::CappedTag<std::int16_t, kWindow> d;
-  const auto first = hn::Set(d, index[0]);
-  std::uint32_t like = 0;
-  for (int i = 0; i < kWindow; i += static_cast<int>(hn::Lanes(d))) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, index + i), first), bits);
-    like |= static_cast<std::uint32_t>(bits[0]) << i;
-  }
-  return like;
-}
-
 template <int lanes, RowKind kind>
 void WriteRowOf(const KernelTable& kernels, const SourceRow<lanes>& row, int y, const BandImage& image, Band& band) {
   for (std::uint64_t pending = row.mask; pending != 0;) {
     const int first = std::countr_zero(pending);
-    std::uint32_t members = LikeFirst(row.index + first) & static_cast<std::uint32_t>(pending >> first);
-    if constexpr (kind == RowKind::moved) members &= LikeFirst(row.old + first);
+    std::uint32_t members = Like(row.index + first, row.index[first]) & static_cast<std::uint32_t>(pending >> first);
+    if constexpr (kind == RowKind::moved) members &= Like(row.old + first, row.old[first]);
     int width = std::bit_width(members);
     // Columns of other kernels in between are written as zeros: that is cheaper than splitting the group, unless there
     // are more of them than members.

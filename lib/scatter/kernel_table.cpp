@@ -116,6 +116,7 @@ KernelTable::KernelTable(const KernelOptions& options)
     }
   }
   moves_ = std::vector<Move>(static_cast<std::size_t>((2 * coc_.size() - 1) * (2 * kFarthestMove + 1)));
+  blocks_ = std::vector<Block>(static_cast<std::size_t>(2 * coc_.size() - 1));
   for (const Kernel& kernel : kernels_) {
     areas_.push_back(area_of(kernel));
     edges_.push_back(kernel.edge_count());
@@ -131,12 +132,34 @@ KernelTable::KernelTable(const KernelOptions& options)
 }
 
 std::span<const EdgePlan> KernelTable::move(int from, int to) const {
-  const int slot = (from + coc_.size() - 1) * (2 * kFarthestMove + 1) + to - from + kFarthestMove;
-  Move& move = moves_[static_cast<std::size_t>(slot)];
+  Move& move = move_at(from, to);
   std::call_once(move.once, [&] {
     move.plans = std::make_unique<const std::vector<EdgePlan>>(plans_of_move(kernel(from), kernel(to)));
   });
   return *move.plans;
+}
+
+// Making a plan takes about as long as some 30 blocks save.
+const BlockPlan& KernelTable::block_at(Block& block, std::span<const EdgePlan> edges) {
+  static const BlockPlan none;
+  if (block.asked.load(std::memory_order_relaxed) < kAskedForBlock) {
+    block.asked.fetch_add(1, std::memory_order_relaxed);
+    return none;
+  }
+  std::call_once(block.once, [&] {
+    if (edges.size() == 1) block.plan = block_plan_of(edges[0]);
+  });
+  return block.plan;
+}
+
+const BlockPlan& KernelTable::block(int signed_index) const {
+  const int index = in_front_.empty() ? std::abs(signed_index) : signed_index;
+  return block_at(blocks_[static_cast<std::size_t>(index + coc_.size() - 1)], {&plan(signed_index), 1});
+}
+
+const BlockPlan& KernelTable::block_move(int from, int to) const {
+  const std::span<const EdgePlan> edges = move(from, to);
+  return block_at(move_at(from, to).block, edges);
 }
 
 }  // namespace pullfocus

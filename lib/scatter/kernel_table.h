@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
+#include "scatter/block_plan.h"
 #include "scatter/coc_table.h"
 #include "scatter/edge_plan.h"
 #include "scatter/kernel.h"
@@ -45,6 +47,11 @@ class KernelTable {
   // For going from one index to another that is at most kFarthestMove away. Made when first asked for, from any thread.
   static constexpr int kFarthestMove = 4;
   std::span<const EdgePlan> move(int from, int to) const;
+  // Of whole blocks. Made when asked for often enough to be worth it, from any thread; until then, and where rows are
+  // written faster one by one, empty.
+  static constexpr int kAskedForBlock = 32;
+  const BlockPlan& block(int signed_index) const;
+  const BlockPlan& block_move(int from, int to) const;
   // Of the kernel; 0 for what is no index of the table.
   int edge_count(int signed_index) const noexcept {
     const auto index = static_cast<std::size_t>(std::abs(signed_index));
@@ -63,13 +70,25 @@ class KernelTable {
   std::vector<Kernel> in_front_;  // empty if every kernel is its own reflection
   bool symmetric_ = true;
   std::vector<EdgePlan> plans_, plans_in_front_;
+  struct Block {
+    std::atomic<int> asked = 0;
+    std::once_flag once;
+    BlockPlan plan;
+  };
+  static const BlockPlan& block_at(Block& block, std::span<const EdgePlan> edges);
   struct Move {
     std::once_flag once;
     std::unique_ptr<const std::vector<EdgePlan>> plans;
+    Block block;
   };
-  mutable std::vector<Move> moves_;  // by signed index, then by where to
-  std::vector<double> areas_;        // by |index|
-  std::vector<int> edges_;           // by |index|: a reflection has as many; and a 0
+  Move& move_at(int from, int to) const noexcept {
+    return moves_[static_cast<std::size_t>((from + coc_.size() - 1) * (2 * kFarthestMove + 1) + to - from +
+                                           kFarthestMove)];
+  }
+  mutable std::vector<Move> moves_;    // by signed index, then by where to
+  mutable std::vector<Block> blocks_;  // by signed index
+  std::vector<double> areas_;          // by |index|
+  std::vector<int> edges_;             // by |index|: a reflection has as many; and a 0
   double overlap_bound_ = 0;
 };
 

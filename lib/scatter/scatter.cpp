@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <utility>
 
+#include "scatter/blocks.h"
 #include "scatter/edges.h"
 #include "scatter/occluded_edges.h"
 #include "scatter/occlusion.h"
@@ -100,9 +102,53 @@ void Scatter::write_hidden(Band& band, const Sources& sources, int x, int y, std
   if (!fold) write_beyond(band, row.added, RowKind::plain, y, reach, image, write);
 }
 
+// Of the selected pixels of a tile: those of kBlockRows rows from row `first` of the tile on.
 template <int lanes>
-void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& sources,
-                   const BandLayout& layout) const {
+void Scatter::write_lines(Band& band, const TileWork& work, int first, const Sources& sources, const BandImage& image,
+                          bool fold, Scratch& scratch) const {
+  const int x = grid_.x(work.tile), y = grid_.y(work.tile) + first;
+  const int rx = reach_x(work.max_index), ry = reach_y(work.max_index);
+  Lines<lanes>& lines = scratch.template lines<lanes>();
+  std::array<bool, kBlockRows> any{};
+  for (std::size_t h = 0; h < kBlockRows; ++h) {
+    const int row = static_cast<int>(h);
+    const std::uint64_t mask = work.mask.rows[first + row];
+    any[h] = mask != 0 && y + row + ry >= image.y0 && y + row - ry < image.y1;
+    if (any[h]) collect<lanes>(sources, x, y + row, mask, lines[h]);
+  }
+  if (std::none_of(any.begin(), any.end(), [](bool is) { return is; })) return;
+  const auto write = [&](SourceRow<lanes> RowSources<lanes>::*of_kind, RowKind kind) {
+    SourceBlock<lanes> block{{}, {}, x, y};
+    int count = 0;
+    for (std::size_t h = 0; h < kBlockRows; ++h) {
+      block.rows[h] = &(lines[h].*of_kind);
+      block.masks[h] = any[h] ? block.rows[h]->mask : 0;
+      count += std::popcount(block.masks[h]);
+    }
+    if (count == 0) return;
+    if (count >= kFewestInBlock) block_writer<lanes>(kind)(kernels_, block, image, band, scratch.values);
+    const WriteRow<lanes> write_row = row_writer<lanes>(kind);
+    for (std::size_t h = 0; h < kBlockRows; ++h) {
+      SourceRow<lanes>& row = lines[h].*of_kind;
+      if (!any[h] || row.mask == 0) continue;
+      const int at = y + static_cast<int>(h);
+      const std::uint64_t all = std::exchange(row.mask, block.masks[h]);
+      if (row.mask != 0) write_row(kernels_, row, at, image, band);
+      row.mask = all;
+      if (fold) continue;
+      write_beyond(band, row, kind, at, rx, image,
+                   [&](const SourceRow<lanes>& beyond, bool) { write_row(kernels_, beyond, at, image, band); });
+    }
+  };
+  write(&RowSources<lanes>::added, RowKind::plain);
+  write(&RowSources<lanes>::taken_back, RowKind::plain);
+  write(&RowSources<lanes>::recoloured, RowKind::recoloured);
+  write(&RowSources<lanes>::moved, RowKind::moved);
+}
+
+template <int lanes>
+void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout,
+                   Scratch& scratch) const {
   // Every reflection of the band within reach of the image: index k counts borders crossed, downwards.
   std::vector<BandImage> images;
   const int h = layout.height, reach = reach_y_.empty() ? 0 : reach_y_.back();
@@ -115,7 +161,6 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
       images.push_back({y0, y1, flipped ? band.y1() - 1 : band.y0(), flipped ? -1 : 1});
   }
 
-  RowSources<lanes> row;
   for (const BandImage& image : images) {
     for (const TileWork& work : tiles) {
       const int x = grid_.x(work.tile), y = grid_.y(work.tile);
@@ -125,25 +170,14 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
       if (ya >= yb) continue;
       const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
       band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x + part.x0 - rx, x + part.x1 + rx + 1);
-      for (int i = part.y0; i < part.y1; ++i) {
-        if (work.mask.rows[i] == 0 || y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
-        const std::uint64_t hidden =
-            sources.occlusion != nullptr ? work.mask.rows[i] & sources.occlusion->columns(work.tile) : 0;
+      for (int i = part.y0; i < part.y1 && sources.occlusion != nullptr; ++i) {
+        if (y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
+        const std::uint64_t hidden = work.mask.rows[i] & sources.occlusion->columns(work.tile);
         if (hidden != 0) write_hidden<lanes>(band, sources, x, y + i, hidden, rx, image, layout.fold);
-        if (!sources.is_plain) continue;
-        collect<lanes>(sources, x, y + i, work.mask.rows[i], row);
-        const auto write = [&](const SourceRow<lanes>& of_row, RowKind kind) {
-          if (of_row.mask == 0) return;
-          const WriteRow<lanes> write_row = row_writer<lanes>(kind);
-          write_row(kernels_, of_row, y + i, image, band);
-          if (layout.fold) return;
-          write_beyond(band, of_row, kind, y + i, rx, image,
-                       [&](const SourceRow<lanes>& beyond, bool) { write_row(kernels_, beyond, y + i, image, band); });
-        };
-        write(row.added, RowKind::plain);
-        write(row.taken_back, RowKind::plain);
-        write(row.recoloured, RowKind::recoloured);
-        write(row.moved, RowKind::moved);
+      }
+      if (!sources.is_plain) continue;
+      for (int i = 0; i < kTileHeight; i += kBlockRows) {
+        write_lines<lanes>(band, work, i, sources, image, layout.fold, scratch);
       }
     }
   }
@@ -174,9 +208,9 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
   y_first = std::max(y_first, 0);
   y_last = std::min(y_last, grid_.height);
   if (y_first >= y_last) return;
-  // Beyond the reach lies room for the last edge, and for the zeros that fill up a group of sources.
+  // Beyond the reach lies room for the last edge, and for the zeros that fill up groups of sources and chains of edges.
   const bool fold = kernels_.symmetric();
-  const int pad = (fold ? 1 : 2) * reach_x(largest) + kWindow;
+  const int pad = (fold ? 1 : 2) * reach_x(largest) + kBlockColumns + BlockPlan::kMostSpread;
   const BandLayout layout{grid_.width, grid_.height, pad, lanes, fold};
 
   // Low bands feed all threads evenly, but the lower they are, the more of them visit a source.
@@ -185,7 +219,8 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
   const int band_rows = std::clamp(share, std::clamp(reach_y(largest) / 2, 8, 64), 128);
   const int band_count = (span + band_rows - 1) / band_rows;
   tbb::parallel_for(0, band_count, [&](int b) {
-    std::vector<Band>& bands = bands_.local();
+    Scratch& scratch = scratch_.local();
+    std::vector<Band>& bands = scratch.bands;
     bands.resize(std::max(bands.size(), work.size()));
     const int y0 = y_first + b * band_rows, y1 = std::min(y0 + band_rows, y_last);
     for (std::size_t l = 0; l < work.size(); ++l) {
@@ -193,9 +228,9 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
       of_layer.range = work[l].range;
       bands[l].begin(layout, y0, y1);
       if (lanes == kOpaqueLanes) {
-        fill<kOpaqueLanes>(bands[l], work[l].tiles, of_layer, layout);
+        fill<kOpaqueLanes>(bands[l], work[l].tiles, of_layer, layout, scratch);
       } else {
-        fill<kAlphaLanes>(bands[l], work[l].tiles, of_layer, layout);
+        fill<kAlphaLanes>(bands[l], work[l].tiles, of_layer, layout, scratch);
       }
     }
     std::vector<std::vector<ColumnSpan>> spans(work.size());

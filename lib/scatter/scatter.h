@@ -3,11 +3,15 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
 #include <functional>
+#include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "scatter/band.h"
+#include "scatter/blocks.h"
 #include "scatter/edges.h"
 #include "scatter/kernel_table.h"
 #include "scatter/source_row.h"
@@ -48,7 +52,30 @@ class Scatter {
 
  private:
   template <int lanes>
-  void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout) const;
+  using Lines = std::array<RowSources<lanes>, kBlockRows>;
+
+  // What one thread works with.
+  struct Scratch {
+    std::vector<Band> bands;  // one a layer
+    BlockValues values;
+    std::unique_ptr<Lines<kOpaqueLanes>> opaque_lines;
+    std::unique_ptr<Lines<kAlphaLanes>> alpha_lines;
+
+    template <int lanes>
+    Lines<lanes>& lines() {
+      auto& lines = std::get<std::unique_ptr<Lines<lanes>>&>(std::tie(opaque_lines, alpha_lines));
+      if (!lines) lines = std::make_unique_for_overwrite<Lines<lanes>>();
+      return *lines;
+    }
+  };
+
+  template <int lanes>
+  void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout,
+            Scratch& scratch) const;
+
+  template <int lanes>
+  void write_lines(Band& band, const TileWork& work, int first, const Sources& sources, const BandImage& image,
+                   bool fold, Scratch& scratch) const;
 
   template <int lanes, typename Write>
   void write_beyond(Band& band, const SourceRow<lanes>& row, RowKind kind, int y, int reach, const BandImage& image,
@@ -60,8 +87,8 @@ class Scatter {
 
   const KernelTable& kernels_;
   const TileGrid grid_;
-  std::vector<int> reach_x_, reach_y_;                        // by |index|
-  tbb::enumerable_thread_specific<std::vector<Band>> bands_;  // one a layer
+  std::vector<int> reach_x_, reach_y_;  // by |index|
+  tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
 }  // namespace pullfocus

@@ -9,6 +9,7 @@
 #include "importance/segment.h"
 #include "importance/select.h"
 #include "resolve/resolve.h"
+#include "scatter/blocks.h"
 #include "scatter/edges.h"
 #include "scatter/sums.h"
 
@@ -107,6 +108,56 @@ BENCHMARK_CAPTURE(edges_of_sources, recoloured, RowKind::recoloured)->Args({8, 1
 BENCHMARK_CAPTURE(edges_of_sources, moved, RowKind::moved)
     ->ArgsProduct({{1, 8}, {5, 10, 20, 40, 80}})
     ->ArgNames({"sources", "radius"});
+
+// A block of sources of one radius, as edges_of_sources otherwise; rows: of the same sources, one by one.
+void edges_of_blocks(benchmark::State& state, RowKind kind, bool as_rows) {
+  const int radius = static_cast<int>(state.range(0));
+  const int index = discs().coc().index(2 * static_cast<float>(radius));
+  for (int i = 0; i <= KernelTable::kAskedForBlock; ++i) {
+    discs().block(index);
+    discs().block_move(index - 1, index);
+  }
+  const Kernel& kernel = discs().kernel(index);
+  Band band;
+  const int height = 2 * kernel.radius_y + kBlockRows;
+  band.begin({kRow, height, kernel.radius_x + kBlockColumns + BlockPlan::kMostSpread, kOpaqueLanes}, 0, height);
+  std::vector<SourceRow<kOpaqueLanes>> rows(kBlockRows);
+  SourceBlock<kOpaqueLanes> block{{}, {}, kRow / 2, kernel.radius_y};
+  for (std::size_t h = 0; h < kBlockRows; ++h) {
+    rows[h].x = block.x;
+    std::fill(std::begin(rows[h].index), std::end(rows[h].index), static_cast<std::int16_t>(index));
+    std::fill(std::begin(rows[h].old), std::end(rows[h].old), static_cast<std::int16_t>(index - 1));
+    std::fill(std::begin(rows[h].plus), std::end(rows[h].plus), 0.25);
+    std::fill(std::begin(rows[h].minus), std::end(rows[h].minus), 0.125);
+    block.rows[h] = &rows[h];
+  }
+  const BandImage image{0, height, 0, 1};
+  BlockValues values;
+  for (auto _ : state) {
+    if (!as_rows) {
+      block.masks.fill(first_pixels(kBlockColumns));
+      block_writer<kOpaqueLanes>(kind)(discs(), block, image, band, values);
+    }
+    for (std::size_t h = 0; h < kBlockRows; ++h) {
+      rows[h].mask = as_rows ? first_pixels(kBlockColumns) : block.masks[h];
+      if (rows[h].mask == 0) continue;
+      row_writer<kOpaqueLanes>(kind)(discs(), rows[h], block.y + static_cast<int>(h), image, band);
+    }
+    benchmark::ClobberMemory();
+  }
+  const int edges = kernel.edge_count() + (kind == RowKind::moved ? discs().edge_count(index - 1) : 0);
+  state.SetItemsProcessed(state.iterations() * edges * kBlockRows * kBlockColumns);
+}
+BENCHMARK_CAPTURE(edges_of_blocks, plain, RowKind::plain, false)
+    ->ArgsProduct({{2, 5, 10, 20, 40, 80}})
+    ->ArgNames({"radius"});
+BENCHMARK_CAPTURE(edges_of_blocks, plain_rows, RowKind::plain, true)
+    ->ArgsProduct({{2, 5, 10, 20, 40, 80}})
+    ->ArgNames({"radius"});
+BENCHMARK_CAPTURE(edges_of_blocks, moved, RowKind::moved, false)->ArgsProduct({{10, 20, 40, 80}})->ArgNames({"radius"});
+BENCHMARK_CAPTURE(edges_of_blocks, moved_rows, RowKind::moved, true)
+    ->ArgsProduct({{10, 20, 40, 80}})
+    ->ArgNames({"radius"});
 
 void prefix_sum_of_row(benchmark::State& state) {
   const int lanes = static_cast<int>(state.range(0));

@@ -15,8 +15,8 @@ namespace {
 
 using Weights = std::map<std::pair<int, int>, std::int64_t>;  // by dx, dy
 
-// What a plan gives for colours of 1: every value row in turn, edges to differences, differences to weights.
-void follow(const EdgePlan& plan, Weights& weights) {
+// A plan's value rows for colours of 1.
+std::vector<std::int64_t> value_rows(const EdgePlan& plan) {
   std::vector<std::int64_t> rows;
   for (std::size_t k = 0; k < plan.weights.size(); ++k) {
     const auto weight = static_cast<std::int64_t>(plan.weights[k]);
@@ -25,6 +25,13 @@ void follow(const EdgePlan& plan, Weights& weights) {
   for (const RowPair& pair : plan.differences) rows.push_back(rows[pair.a] - rows[pair.b]);
   for (const RowPair& pair : plan.sums) rows.push_back(rows[pair.a] + rows[pair.b]);
   if (plan.has_zeros) rows.push_back(0);
+  return rows;
+}
+
+// What a plan gives for colours of 1: every value row in turn, edges to differences, differences to weights.
+void follow(const EdgePlan& plan, Weights& weights) {
+  const std::vector<std::int64_t> rows = value_rows(plan);
+  ASSERT_EQ(rows.size(), plan.value_rows());
   ASSERT_LE(rows.size(), kMostValueRows);
   Weights edges;
   for (const bool rising : {false, true}) {
@@ -106,6 +113,63 @@ TEST_P(EdgePlans, OfMovesGiveTheNewKernelLessTheOldOne) {
   }
 }
 
+// Edges of a block whose source rows have the colours 1, 10, 100 ..., by column and row.
+Weights edges_of_block(const BlockPlan& plan, const EdgePlan& of_row) {
+  const std::vector<std::int64_t> of_one = value_rows(of_row);
+  std::vector<std::int64_t> rows;
+  std::int64_t colour = 1;
+  for (int h = 0; h < kBlockRows; ++h, colour *= 10) {
+    for (const std::int64_t value : of_one) rows.push_back(value * colour);
+  }
+  for (const BlockPlan::RowSum& sum : plan.sums) rows.push_back(rows.at(sum.a) + rows.at(sum.b));
+  Weights edges;
+  for (int spread = 0; spread < BlockPlan::kSpreads; ++spread) {
+    std::size_t next = 0;
+    for (const BlockChain& chain : plan.of_spread[spread].chains) {
+      for (int t = 0; t < chain.added + chain.taken; ++t) {
+        const BlockTerm& term = plan.of_spread[spread].terms.at(next++);
+        EXPECT_LE(int{term.shift}, spread * BlockPlan::kSpreadStep);
+        edges[{chain.dx + term.shift, chain.dy}] += (t < chain.added ? 1 : -1) * rows.at(term.row);
+      }
+    }
+    EXPECT_EQ(next, plan.of_spread[spread].terms.size());
+  }
+  return edges;
+}
+
+Weights edges_of_rows(const EdgePlan& plan) {
+  const std::vector<std::int64_t> rows = value_rows(plan);
+  Weights edges;
+  std::int64_t colour = 1;
+  for (int h = 0; h < kBlockRows; ++h, colour *= 10) {
+    for (const bool rising : {false, true}) {
+      for (int length = 1; length <= kMaxChain; ++length) {
+        for (const EdgeChain& chain : plan.rows(rising, length, -plan.radius_y, plan.radius_y + 1)) {
+          for (int k = 0; k < length; ++k) {
+            edges[{chain.dx + k, chain.dy + h}] += (rising ? 1 : -1) * colour * rows[chain.rows[k]];
+          }
+        }
+      }
+    }
+  }
+  return edges;
+}
+
+TEST_P(EdgePlans, OfBlocksGiveWhatTheirRowsGive) {
+  const KernelTable table(options_of(GetParam()));
+  int blocks = 0;
+  for (int index = 1 - table.coc().size(); index + 1 < table.coc().size(); ++index) {
+    const EdgePlan &row = table.plan(index), &way = table.move(index, index + 1)[0];
+    const BlockPlan block = block_plan_of(row), move = block_plan_of(way);
+    if (!block.empty()) expect_equal(edges_of_block(block, row), edges_of_rows(row));
+    if (!move.empty()) expect_equal(edges_of_block(move, way), edges_of_rows(way));
+    ASSERT_FALSE(HasFatalFailure()) << "index " << index;
+    ASSERT_LE(block.value_rows(), BlockPlan::kMostRows);
+    blocks += !block.empty();
+  }
+  EXPECT_GT(blocks, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, EdgePlans,
                          testing::Values(KernelShape::Kind::disc, KernelShape::Kind::polygon,
                                          KernelShape::Kind::gaussian, KernelShape::Kind::diffraction));
@@ -117,6 +181,31 @@ TEST(EdgePlan, WritesTheEdgesOfNeighbouringDiscsTogether) {
     ASSERT_EQ(table.move(index, index + 1).size(), 1u);
     EXPECT_LE(chains(table.move(index, index + 1)[0]), 0.62 * static_cast<double>(apart)) << index;
   }
+}
+
+// Four rows of a disc have edges at 8 places in a row of the picture, or fewer: they are written as 2 to 4 chains.
+TEST(EdgePlan, OfABlockReadsAndWritesAThirdOfWhatRowsDo) {
+  const KernelTable table(options_of(KernelShape::Kind::disc));
+  for (int index = 10; index < table.coc().size(); ++index) {
+    const BlockPlan block = block_plan_of(table.plan(index));
+    std::size_t written = 0;
+    for (const auto& of_spread : block.of_spread) written += of_spread.chains.size();
+    EXPECT_LE(3 * written, 1.25 * kBlockRows * static_cast<double>(chains(table.plan(index)))) << index;
+    EXPECT_FALSE(block.empty()) << index;
+    EXPECT_LT(block.cost, BlockPlan::kAllRows) << index;
+  }
+}
+
+TEST(EdgePlan, OfABlockIsMadeWhenAskedForOften) {
+  const KernelTable table(options_of(KernelShape::Kind::disc));
+  for (int i = 0; i < KernelTable::kAskedForBlock; ++i) {
+    EXPECT_TRUE(table.block(20).empty());
+    EXPECT_TRUE(table.block_move(40, 41).empty());
+  }
+  EXPECT_FALSE(table.block(20).empty());
+  EXPECT_EQ(&table.block(20), &table.block(-20));
+  EXPECT_FALSE(table.block_move(40, 41).empty());
+  EXPECT_TRUE(table.block_move(41, 40).empty());
 }
 
 // Noise of 16 levels has all pairs of them as edges: two kernels need more value rows than there are.

@@ -1,13 +1,17 @@
-// Rows of sources as run edges, against single edges written one lane at a time.
+// Rows and blocks of sources as run edges, against single edges written one lane at a time.
 #include "scatter/edges.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <random>
+#include <vector>
 
+#include "scatter/blocks.h"
 #include "scatter/kernel_table.h"
 #include "targets.h"
 
@@ -57,69 +61,161 @@ void random_indices(std::mt19937& random, int size, std::int16_t* index) {
   }
 }
 
+// Some columns of a tile row at image column x.
 template <int lanes>
-void check_random_rows(const KernelOptions& options) {
-  std::mt19937 random(4);
-  const KernelTable kernels(options);
+void random_row(std::mt19937& random, const KernelTable& kernels, int x, SourceRow<lanes>& sources) {
   const int size = kernels.coc().size();
-  const BandLayout layout{kWidth, kHeight, 100, lanes};
-  for (int round = 0; round < 60; ++round) {
-    const auto kind = static_cast<RowKind>(round % 3);
-    const bool flipped = random() % 2;
-    const int y0 = 4, y1 = 20, y = -5 + static_cast<int>(random() % 35);
-    const BandImage image{y0, y1, flipped ? y1 - 1 : y0, flipped ? -1 : 1};
-    SourceRow<lanes> sources;
-    sources.x = -static_cast<int>(random() % 5);
-    sources.mask = std::uint64_t{random()} << 32 | random();
-    if (random() % 3 > 0) sources.mask |= std::uint64_t{random()} << 32 | random();
-    if (random() % 3 > 0) sources.mask |= std::uint64_t{random()} << 32 | random();
-    random_indices(random, size, sources.index);
-    std::fill(sources.index + kTileWidth, std::end(sources.index), kNeverCommitted);
-    for (int i = 0; i < kTileWidth; ++i) {
-      random_lanes<lanes>(random, true, sources.plus + i * lanes);
-      random_lanes<lanes>(random, random() % 2, sources.minus + i * lanes);
-      const int far = KernelTable::kFarthestMove, by = static_cast<int>(random() % (2u * far + 1)) - far;
-      sources.old[i] =
-          static_cast<std::int16_t>(std::clamp(sources.index[i] + (random() % 3 ? 1 : by), 1 - size, size - 1));
-    }
-    std::fill(sources.old + kTileWidth, std::end(sources.old), kNeverCommitted);
-    Band band, expected;
-    band.begin(layout, y0, y1);
-    expected.begin(layout, y0, y1);
-    row_writer<lanes>(kind)(kernels, sources, y, image, band);
-    for_each_pixel(sources.mask, [&](int i) {
-      const double nothing[lanes] = {};
-      const auto write = [&](int index, const double* plus, const double* minus) {
-        write_plainly<lanes>(kernels.kernel(index), sources.x + i, plus, minus, y, image, expected);
-      };
-      const double *const plus = sources.plus + i * lanes, *const minus = sources.minus + i * lanes;
-      write(sources.index[i], plus, kind == RowKind::recoloured ? minus : nothing);
-      if (kind == RowKind::moved) write(sources.old[i], nothing, minus);
-    });
-    for (int row = y0; row < y1; ++row) {
-      for (int i = -layout.pad * lanes; i < (kWidth + layout.pad) * lanes; ++i) {
-        ASSERT_EQ(band.row(row)[i], expected.row(row)[i]) << "round " << round;
-      }
+  sources.x = x;
+  sources.mask = std::uint64_t{random()} << 32 | random();
+  if (random() % 3 > 0) sources.mask |= std::uint64_t{random()} << 32 | random();
+  if (random() % 3 > 0) sources.mask |= std::uint64_t{random()} << 32 | random();
+  random_indices(random, size, sources.index);
+  std::fill(sources.index + kTileWidth, std::end(sources.index), kNeverCommitted);
+  for (int i = 0; i < kTileWidth; ++i) {
+    random_lanes<lanes>(random, true, sources.plus + i * lanes);
+    random_lanes<lanes>(random, random() % 2, sources.minus + i * lanes);
+    const int far = KernelTable::kFarthestMove, by = static_cast<int>(random() % (2u * far + 1)) - far;
+    sources.old[i] =
+        static_cast<std::int16_t>(std::clamp(sources.index[i] + (random() % 3 ? 1 : by), 1 - size, size - 1));
+  }
+  std::fill(sources.old + kTileWidth, std::end(sources.old), kNeverCommitted);
+}
+
+template <int lanes>
+void write_row_plainly(const KernelTable& kernels, const SourceRow<lanes>& sources, RowKind kind, int y,
+                       const BandImage& image, Band& band) {
+  for_each_pixel(sources.mask, [&](int i) {
+    const double nothing[lanes] = {};
+    const auto write = [&](int index, const double* plus, const double* minus) {
+      write_plainly<lanes>(kernels.kernel(index), sources.x + i, plus, minus, y, image, band);
+    };
+    const double *const plus = sources.plus + i * lanes, *const minus = sources.minus + i * lanes;
+    write(sources.index[i], plus, kind == RowKind::recoloured ? minus : nothing);
+    if (kind == RowKind::moved) write(sources.old[i], nothing, minus);
+  });
+}
+
+void expect_equal(Band& band, Band& expected, const BandLayout& layout, int round) {
+  for (int row = band.y0(); row < band.y1(); ++row) {
+    for (int i = -layout.pad * layout.lanes; i < (kWidth + layout.pad) * layout.lanes; ++i) {
+      ASSERT_EQ(band.row(row)[i], expected.row(row)[i]) << "round " << round;
     }
   }
 }
 
-// A disc's rims have up to 16 levels, a polygon's rows are no mirror images, a gaussian rises step after step.
-TEST(Edges, RowsEqualSingleEdgesOnEveryTarget) {
-  KernelOptions disc, polygon, gaussian;
-  polygon.shape.kind = KernelShape::Kind::polygon;
-  polygon.shape.blades = 5;
-  gaussian.shape.kind = KernelShape::Kind::gaussian;
-  for (KernelOptions* options : {&disc, &polygon, &gaussian}) {
-    options->max_coc_px = 44;
-    for (const std::int64_t target : test::simd_targets()) {
-      const test::OnTarget on(target);
-      check_random_rows<kOpaqueLanes>(*options);
-      check_random_rows<kAlphaLanes>(*options);
-      ASSERT_FALSE(HasFailure()) << "on " << test::simd_target_name(target);
-    }
+constexpr int kBandBegin = 4, kBandEnd = 20;
+BandImage random_image(std::mt19937& random) {
+  const bool flipped = random() % 2;
+  return {kBandBegin, kBandEnd, flipped ? kBandEnd - 1 : kBandBegin, flipped ? -1 : 1};
+}
+
+template <int lanes>
+void check_random_rows(const KernelTable& kernels) {
+  std::mt19937 random(4);
+  const BandLayout layout{kWidth, kHeight, 100, lanes};
+  for (int round = 0; round < 60; ++round) {
+    const auto kind = static_cast<RowKind>(round % 3);
+    const int y = -5 + static_cast<int>(random() % 35);
+    const BandImage image = random_image(random);
+    SourceRow<lanes> sources;
+    random_row<lanes>(random, kernels, -static_cast<int>(random() % 5), sources);
+    Band band, expected;
+    band.begin(layout, kBandBegin, kBandEnd);
+    expected.begin(layout, kBandBegin, kBandEnd);
+    row_writer<lanes>(kind)(kernels, sources, y, image, band);
+    write_row_plainly<lanes>(kernels, sources, kind, y, image, expected);
+    ASSERT_NO_FATAL_FAILURE(expect_equal(band, expected, layout, round));
   }
 }
+
+// Rows of a block that are mostly alike; returns how many sources were written as blocks.
+template <int lanes>
+int check_random_blocks(const KernelTable& kernels) {
+  std::mt19937 random(5);
+  const BandLayout layout{kWidth, kHeight, 100, lanes};
+  const int size = kernels.coc().size();
+  for (int index = 1 - size; index < size; ++index) {
+    for (int i = 0; i < KernelTable::kAskedForBlock; ++i) {
+      kernels.block(index);
+      for (int by = -1; by <= 1; ++by) {
+        if (std::abs(index + by) < size) kernels.block_move(index, index + by);
+      }
+    }
+  }
+  BlockValues values;
+  int in_blocks = 0;
+  for (int round = 0; round < 60; ++round) {
+    const auto kind = static_cast<RowKind>(round % 3);
+    SourceBlock<lanes> block;
+    block.x = -static_cast<int>(random() % 5);
+    block.y = -5 + static_cast<int>(random() % 35);
+    const BandImage image = random_image(random);
+    std::vector<SourceRow<lanes>> rows(kBlockRows);
+    for (std::size_t h = 0; h < kBlockRows; ++h) {
+      random_row<lanes>(random, kernels, block.x, rows[h]);
+      if (random() % 8 == 0) rows[h].mask = 0;
+      for (int i = 0; i < kTileWidth && h > 0; ++i) {
+        if (random() % 12 == 0) continue;
+        rows[h].index[i] = rows[0].index[i];
+        rows[h].old[i] = rows[0].old[i];
+      }
+      block.rows[h] = &rows[h];
+      block.masks[h] = rows[h].mask;
+    }
+    Band band, expected;
+    band.begin(layout, kBandBegin, kBandEnd);
+    expected.begin(layout, kBandBegin, kBandEnd);
+    for (std::size_t h = 0; h < kBlockRows; ++h) {
+      write_row_plainly<lanes>(kernels, rows[h], kind, block.y + static_cast<int>(h), image, expected);
+    }
+    block_writer<lanes>(kind)(kernels, block, image, band, values);
+    for (std::size_t h = 0; h < kBlockRows; ++h) {
+      EXPECT_EQ(block.masks[h] & ~rows[h].mask, 0u);
+      in_blocks += std::popcount(rows[h].mask & ~block.masks[h]);
+      rows[h].mask = block.masks[h];
+      row_writer<lanes>(kind)(kernels, rows[h], block.y + static_cast<int>(h), image, band);
+    }
+    expect_equal(band, expected, layout, round);
+    if (testing::Test::HasFatalFailure()) return 0;
+  }
+  return in_blocks;
+}
+
+// A disc's rims have up to 16 levels, a polygon's rows are no mirror images, a gaussian rises step after step.
+class Edges : public testing::TestWithParam<KernelShape::Kind> {
+ protected:
+  static KernelTable kernels(float largest) {
+    KernelOptions options;
+    options.shape.kind = GetParam();
+    options.shape.blades = 5;
+    options.max_coc_px = largest;
+    return KernelTable(options);
+  }
+};
+
+TEST_P(Edges, RowsEqualSingleEdgesOnEveryTarget) {
+  const KernelTable table = kernels(44);
+  for (const std::int64_t target : test::simd_targets()) {
+    const test::OnTarget on(target);
+    check_random_rows<kOpaqueLanes>(table);
+    check_random_rows<kAlphaLanes>(table);
+    ASSERT_FALSE(HasFailure()) << "on " << test::simd_target_name(target);
+  }
+}
+
+TEST_P(Edges, BlocksEqualSingleEdgesOnEveryTarget) {
+  const KernelTable table = kernels(90);
+  for (const std::int64_t target : test::simd_targets()) {
+    const test::OnTarget on(target);
+    const int opaque = check_random_blocks<kOpaqueLanes>(table), alpha = check_random_blocks<kAlphaLanes>(table);
+    ASSERT_FALSE(HasFailure()) << "on " << test::simd_target_name(target);
+    EXPECT_GT(std::min(opaque, alpha), 1000) << "on " << test::simd_target_name(target);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Edges,
+                         testing::Values(KernelShape::Kind::disc, KernelShape::Kind::polygon,
+                                         KernelShape::Kind::gaussian));
 
 }  // namespace
 }  // namespace pullfocus
