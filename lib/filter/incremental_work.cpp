@@ -91,7 +91,7 @@ std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const s
 // depth has changed: taken as five times the cost in all.
 bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges,
                                            const std::vector<TileWork>& selected) const noexcept {
-  constexpr std::int64_t kEdge = 5, kMovedEdge = 3, kUpdated = 64, kPixel = 32, kRowEdges = 3;
+  constexpr std::int64_t kEdge = 5, kMovedEdge = 4, kUpdated = 128, kPixel = 32, kRowEdges = 3;
   const std::int64_t updated = count_pixels(selected);
   const std::int64_t edges_after = edges_ + edges.committed;
   const auto pixels = static_cast<std::int64_t>(core_.window.pixels());
