@@ -24,6 +24,7 @@ void IncrementalFilter::reset() {
   if (core_.occlusion) core_.occlusion->reset();
   if (core_.backdrop) core_.backdrop->reset();
   pending_.assign(core_.window.pixels(), 0);
+  remembered_.reset(grid_of(core_.window));
   sums_.reset(core_.window.width(), core_.window.height(), core_.layers.count(), kOpaqueLanes);
   sums_kept_ = true;
   keep_rule_ = {};
@@ -126,11 +127,19 @@ bool IncrementalFilter::takes_all_at_once(const Call& call) const noexcept {
 }
 
 Changes IncrementalFilter::detect(const CocFunction& coc, bool and_commit) {
+  RememberedDepths* remembered = &remembered_;
+  if (frame_->has_mask()) {  // indices are not of depths alone
+    remembered_.forget();
+    remembered = nullptr;
+  } else {
+    remembered_.begin(coc);
+  }
   if (and_commit) {
-    return take_changes(*frame_, coc, *core_.kernels, core_.sanitiser, state_, thresholds(), core_.hidden());
+    return take_changes(*frame_, coc, *core_.kernels, core_.sanitiser, state_, thresholds(), core_.hidden(),
+                        remembered);
   }
   return find_changes(*frame_, coc, core_.kernels->coc(), core_.sanitiser, state_, thresholds(), pending_,
-                      core_.hidden());
+                      core_.hidden(), remembered);
 }
 
 ChangeThresholds IncrementalFilter::thresholds() const noexcept {

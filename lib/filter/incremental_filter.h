@@ -1,7 +1,7 @@
 // The incremental filter (Fearing 1996): remembers what every pixel contributed and recomputes what changed.
 //
 // Stage          reads                          writes
-// find_changes   frame, committed state         masks of changed pixels, their new indices
+// find_changes   frame, committed state         masks of changed pixels, their new indices, depths that stay
 // select         masks, importance              the set the budget affords, in slices if the call can be stopped
 // scatter        committed state, frame         destination bands: old contributions out, new ones in
 // integrate      bands                          accumulators, dirty spans
@@ -91,6 +91,7 @@ class IncrementalFilter final : public Filter {
   FilterCore core_;
   SourceState state_;
   std::vector<std::int16_t> pending_;
+  RememberedDepths remembered_;
   LayerSums sums_;
   bool sums_kept_ = true;  // false: what they hold means nothing
   KeepRule keep_rule_;

@@ -89,7 +89,7 @@ Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const F
   double in_front = 0;  // share of the tiles in which something may be seen behind
   for (const Plan::Layer& layer : plan.layers) in_front += layer.coc_last < 0 ? layer.reached : 0;
   if (plan.layers.size() > 1) sums += std::min(in_front, 1.) * sizeof(Backdrop::Chunk) / Backdrop::kChunk;
-  plan.state_bytes_per_pixel = sums + colour + 2 + 2 + 1. / 4;  // sums, colour, index, pending index, masks
+  plan.state_bytes_per_pixel = sums + colour + 2 + 2 + 4 + 3. / 8;  // sums, colour, index, pending index, depth, masks
   plan.frame_bytes_per_pixel =
       colour + 4 + 4. * static_cast<double>(sample_bytes(options.output_type.value_or(frame.colour.type())));
 

@@ -35,10 +35,10 @@ Changes joined(const std::vector<TileRow>& rows) {
 
 Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
                      const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending,
-                     const Occlusion* occlusion) {
+                     const Occlusion* occlusion, RememberedDepths* remembered) {
   const TileGrid grid = grid_of(state.colour.window());
   return dispatch(frame.colour.type(), [&]<SampleType type>() {
-    const Detector<type> detector(frame, coc, table, sanitiser, state, thresholds, occlusion);
+    const Detector<type> detector(frame, coc, table, sanitiser, state, thresholds, occlusion, remembered);
     return joined(detect(detector, grid, [&](const ChangedRow<type>& found, TileRow&) {
       std::copy_n(found.index, found.n, &pending[position(grid, found.x, found.y)]);
       return reach_of(found, found.index, reach_of(found, found.was, found.max_index));
@@ -47,11 +47,12 @@ Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable&
 }
 
 Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, const Sanitiser& sanitiser,
-                     SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion) {
+                     SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion,
+                     RememberedDepths* remembered) {
   const TileGrid grid = grid_of(state.colour.window());
   state.may_hold_out |= frame.has_mask();
   return dispatch(frame.colour.type(), [&]<SampleType type>() {
-    const Detector<type> detector(frame, coc, kernels.coc(), sanitiser, state, thresholds, occlusion);
+    const Detector<type> detector(frame, coc, kernels.coc(), sanitiser, state, thresholds, occlusion, remembered);
     return joined(detect(detector, grid, [&](const ChangedRow<type>& found, TileRow& row) {
       std::int16_t* const index = &state.index[position(grid, found.x, found.y)];
       Pixel<type>* const colours = pixels_of<type>(state.colour, found.x, found.y);

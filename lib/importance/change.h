@@ -28,17 +28,19 @@ struct Changes {
 // row by row) receives the new indices of the tile rows that hold changed pixels, and keeps its values
 // elsewhere. Pixels whose change is within `thresholds` count as unchanged. With `occlusion` (which goes with the
 // state; may be null) a pixel is changed too if its depth key is; that is within a threshold only if CoC has one, which
-// depth is part of. Threads: runs in the calling task arena;
-// the result does not depend on their number.
+// depth is part of. `remembered` goes with the state and the frame's lens, and must be null for frames with a mask;
+// with it depths that are known to have the committed indices are only compared. Threads: runs in the calling task
+// arena; the result does not depend on their number.
 Changes find_changes(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
                      const SourceState& state, const ChangeThresholds& thresholds, std::vector<std::int16_t>& pending,
-                     const Occlusion* occlusion = nullptr);
+                     const Occlusion* occlusion = nullptr, RememberedDepths* remembered = nullptr);
 
 // The same, and takes all that it finds over into `state` on the way: one pass over the frame in place of three
 // (find_changes(), count_edges() and commit()), for calls that will take every change over in any case.
 // The tiles' `max_index` covers what is committed now, no longer what was before.
 Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, const Sanitiser& sanitiser,
-                     SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion = nullptr);
+                     SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion = nullptr,
+                     RememberedDepths* remembered = nullptr);
 
 // Takes over the whole frame into `state`, without looking at what it held. Fills `max_index` with the
 // largest |index| of every tile.

@@ -40,7 +40,8 @@ class Detector {
  public:
   // All references must outlive this.
   Detector(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
-           const SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion)
+           const SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion,
+           RememberedDepths* remembered)
       : ingest_(frame, coc, table, sanitiser),
         table_(table),
         state_(state),
@@ -49,6 +50,7 @@ class Detector {
         has_mask_(frame.has_mask()),
         kind_(coc.kind),
         occlusion_(occlusion),
+        remembered_(remembered),
         grid_(grid_of(state.colour.window())) {}
 
   // Tiles `first` .. `first + grid.columns() - 1`, which are one row of tiles. Goes by rows of pixels, not by tiles:
@@ -74,10 +76,11 @@ class Detector {
     std::int16_t index[kTileWidth];
     const std::int16_t* committed = &state_.index[position(grid_, x, y)];
     const Pixel<type>* old = pixels_of<type>(state_.colour, x, y);
-    const SegmentDifference difference = ingest_.compare(x, y, n, old, committed, index, row.findings);
+    const SegmentDifference difference = ingest_.compare(x, y, n, old, committed, remembered_, index, row.findings);
     // What was committed is sane, so equal bits are equal sane colours.
     const std::uint64_t key = occlusion_ == nullptr ? 0 : changed_keys(index, x, y, n);
     if ((difference.index | difference.colour | key) == 0) return 0;
+    if (difference.known) std::copy_n(committed, n, index);
     return changed_pixels(x, y, n, difference, key, index, max_index, row, take);
   }
 
@@ -136,6 +139,7 @@ class Detector {
   const bool has_mask_;
   const DepthKind kind_;
   const Occlusion* occlusion_;
+  RememberedDepths* const remembered_;
   const TileGrid grid_;
 };
 

@@ -25,17 +25,23 @@ void SegmentIngest<type>::indices(int x, int y, int n, std::int16_t* out, FrameF
 
 template <SampleType type>
 SegmentDifference SegmentIngest<type>::compare(int x, int y, int n, const Pixel<type>* old_colours,
-                                               const std::int16_t* old_index, std::int16_t* out,
-                                               FrameFindings& findings) const noexcept {
-  const SegmentPair<type> pair{depths(x, y), colours(x, y), old_colours, old_index, n};
+                                               const std::int16_t* old_index, RememberedDepths* remembered,
+                                               std::int16_t* out, FrameFindings& findings) const noexcept {
+  const float* known = remembered != nullptr ? remembered->known(x, y) : nullptr;
+  const SegmentPair<type> pair{depths(x, y), colours(x, y), old_colours, old_index, n, known};
   SegmentDifference difference;
   const SegmentFindings segment = pullfocus::compare<type>(to_index_, pair, out, difference);
+  if (difference.known) {
+    add(x, y, n, remembered->findings(x, y), old_index, findings);
+    return difference;
+  }
   if (has_mask_) [[unlikely]] {
     hold_out(x, y, n, out);
     difference.index = 0;
     for (int i = 0; i < n; ++i) difference.index |= std::uint64_t{out[i] != old_index[i]} << i;
   }
   add(x, y, n, segment, out, findings);
+  if (remembered != nullptr) remembered->take({pair.depth, static_cast<std::size_t>(n)}, x, y, difference, segment);
   return difference;
 }
 

@@ -8,6 +8,7 @@
 #include "image/frame.h"
 #include "image/sanitise.h"
 #include "image/tiles.h"
+#include "importance/remembered_depths.h"
 #include "importance/segment.h"
 #include "scatter/coc_table.h"
 
@@ -44,9 +45,11 @@ class SegmentIngest {
   // clamps, and extends the content bounds.
   void indices(int x, int y, int n, std::int16_t* out, FrameFindings& findings) const noexcept;
 
-  // The same, and what differs from the committed pixels. `out` has room for kTileWidth indices.
+  // The same, and what differs from the committed pixels. `out` has room for kTileWidth indices; where the answer says
+  // that all depths are known it is not written: the committed ones are the frame's. `remembered` may be null, and must
+  // be for frames with a mask; it is read and brought up to date.
   SegmentDifference compare(int x, int y, int n, const Pixel<type>* old_colours, const std::int16_t* old_index,
-                            std::int16_t* out, FrameFindings& findings) const noexcept;
+                            RememberedDepths* remembered, std::int16_t* out, FrameFindings& findings) const noexcept;
 
   // Sanitised colours; counts repairs. Returns whether there were none.
   bool sanitised(int x, int y, int n, Pixel<type>* out, FrameFindings& findings) const noexcept {

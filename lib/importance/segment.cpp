@@ -152,10 +152,18 @@ HWY_INLINE SegmentFindings Compare(const DepthToIndex& to_index, const SegmentPa
   Prefetch(pair.colours + 2 * kTileWidth, kTileWidth * sizeof *pair.colours);
   Prefetch(pair.old_colours + 2 * kTileWidth, kTileWidth * sizeof *pair.old_colours);
   Prefetch(pair.depth + 2 * kTileWidth, kTileWidth * sizeof *pair.depth);
-  Prefetch(pair.old_index + 2 * kTileWidth, kTileWidth * sizeof *pair.old_index);
-  const SegmentFindings findings = SignedIndices(to_index, pair.depth, pair.n, index);
-  if (!Equal(index, pair.old_index, pair.n * static_cast<int>(sizeof *index))) {
-    difference.index = Differing(index, pair.old_index, pair.n);
+  SegmentFindings findings;
+  if (pair.known_depth != nullptr) {
+    Prefetch(pair.known_depth + 2 * kTileWidth, kTileWidth * sizeof *pair.known_depth);
+    difference.known = Equal(pair.depth, pair.known_depth, pair.n * static_cast<int>(sizeof *pair.depth));
+  } else {
+    Prefetch(pair.old_index + 2 * kTileWidth, kTileWidth * sizeof *pair.old_index);
+  }
+  if (!difference.known) {
+    findings = SignedIndices(to_index, pair.depth, pair.n, index);
+    if (!Equal(index, pair.old_index, pair.n * static_cast<int>(sizeof *index))) {
+      difference.index = Differing(index, pair.old_index, pair.n);
+    }
   }
   if (!Equal(pair.colours, pair.old_colours, pair.n * static_cast<int>(sizeof *pair.colours))) {
     difference.colour = DifferingPixels(pair.colours, pair.old_colours, pair.n);

@@ -43,16 +43,18 @@ struct SegmentPair {
   const Pixel<type>* old_colours;
   const std::int16_t* old_index;
   int n;
+  const float* known_depth = nullptr;  // if not null: depths whose indices `old_index` holds
 };
 
 // Bit i: pixel i differs.
 struct SegmentDifference {
   std::uint64_t index = 0;
   std::uint64_t colour = 0;  // by the stored bits, not yet sanitised
+  bool known = false;        // all depths are `known_depth`, bit for bit
 };
 
 // Signed indices as above, and which of them, and of the colours, differ from the committed ones. `index` has room for
-// kTileWidth values, whatever n.
+// kTileWidth values, whatever n. Where the depths are known nothing is written to it, and nothing found.
 template <SampleType type>
 SegmentFindings compare(const DepthToIndex& to_index, const SegmentPair<type>& pair, std::int16_t* index,
                         SegmentDifference& difference) noexcept;

@@ -43,13 +43,13 @@ const Pixel<SampleType::half>* row_of(const Frame& frame, int y) {
 }
 
 // A tile row against what is committed there; `changed`: all of its colours and depths differ.
-void detect_tile_row(benchmark::State& state, bool changed) {
+void detect_tile_row(benchmark::State& state, bool changed, bool known) {
   const Frame frame = noise(kTileWidth, 2);
   const DepthToIndex to_index(kPlanar, discs().coc());
   std::int16_t old_index[kTileWidth], index[kTileWidth];
   signed_indices(to_index, frame.depth.row(changed ? 1 : 0), kTileWidth, old_index);
   const SegmentPair<SampleType::half> pair{frame.depth.row(0), row_of(frame, 0), row_of(frame, changed ? 1 : 0),
-                                           old_index, kTileWidth};
+                                           old_index,          kTileWidth,       known ? frame.depth.row(0) : nullptr};
   SegmentDifference difference;
   for (auto _ : state) {
     benchmark::DoNotOptimize(compare<SampleType::half>(to_index, pair, index, difference));
@@ -57,8 +57,9 @@ void detect_tile_row(benchmark::State& state, bool changed) {
   }
   state.SetItemsProcessed(state.iterations() * kTileWidth);
 }
-BENCHMARK_CAPTURE(detect_tile_row, unchanged, false);
-BENCHMARK_CAPTURE(detect_tile_row, changed, true);
+BENCHMARK_CAPTURE(detect_tile_row, known, false, true);
+BENCHMARK_CAPTURE(detect_tile_row, unchanged, false, false);
+BENCHMARK_CAPTURE(detect_tile_row, changed, true, false);
 
 void coc_of_tile_row(benchmark::State& state) {
   const Frame frame = noise(kTileWidth, 1);

@@ -119,8 +119,50 @@ TEST(Segment, ADifferenceInAnyBitOfAnyPixelIsSeenAndNoOther) {
           ASSERT_EQ(difference.index, moved) << n;
           ASSERT_EQ(difference.colour, recoloured) << n;
           ASSERT_TRUE(std::equal(index, index + n, expected));
+          ASSERT_FALSE(difference.known);
         }
       });
+    }
+  });
+}
+
+TEST(Segment, KnownDepthsAreThoseOfEqualBits) {
+  on_every_target([] {
+    std::mt19937 random(4);
+    const CocTable table(1. / 32, 60);
+    constexpr auto type = SampleType::half;
+    for (int round = 0; round < 3000; ++round) {
+      const CocFunction coc = random_coc(random);
+      const int n = 1 + static_cast<int>(random() % kTileWidth);
+      float depth[kTileWidth], known[kTileWidth];
+      Pixel<type> colours[kTileWidth] = {}, old[kTileWidth] = {};
+      std::int16_t old_index[kTileWidth], index[kTileWidth], expected[kTileWidth];
+      for (int i = 0; i < n; ++i) known[i] = depth[i] = random_depth(random, round % 2);
+      signed_indices(DepthToIndex(coc, table), known, n, old_index);
+      const int recoloured = static_cast<int>(random()) & 63;
+      old[recoloured].rgba[random() % 4] ^= 1;
+      const bool moved = random() % 2;
+      if (moved) {
+        float& one = depth[random() % static_cast<unsigned>(n)];
+        one = std::bit_cast<float>(std::bit_cast<std::uint32_t>(one) ^ (1u << random() % 32));  // 0 to -0, too
+      }
+      std::fill_n(index, kTileWidth, std::int16_t{-7});
+      const SegmentFindings expected_findings = signed_indices(DepthToIndex(coc, table), depth, n, expected);
+      SegmentDifference difference;
+      const SegmentFindings found =
+          compare<type>(DepthToIndex(coc, table), {depth, colours, old, old_index, n, known}, index, difference);
+      ASSERT_EQ(difference.known, !moved);
+      ASSERT_EQ(difference.colour, recoloured < n ? std::uint64_t{1} << recoloured : 0);
+      if (!moved) {
+        ASSERT_EQ(difference.index, 0u);
+        ASSERT_EQ(std::count(index, index + kTileWidth, -7), kTileWidth) << "nothing to write";
+        continue;
+      }
+      ASSERT_TRUE(std::equal(index, index + n, expected));
+      ASSERT_EQ(found.clamped, expected_findings.clamped);
+      std::uint64_t differ = 0;
+      for (int i = 0; i < n; ++i) differ |= std::uint64_t{expected[i] != old_index[i]} << i;
+      ASSERT_EQ(difference.index, differ);
     }
   });
 }
