@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #include "importance/change.h"
 #include "importance/tile_row.h"
@@ -35,14 +36,16 @@ FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTa
     };
     tbb::parallel_for(0, grid.rows(), [&](int r) {
       TileRow& row = rows[static_cast<std::size_t>(r)];
-      for (int c = 0; c < grid.columns(); ++c) {
-        const int tile = r * grid.columns() + c;
-        TileWork& work = tiles[static_cast<std::size_t>(tile)];
-        work = {tile, 0, {}};
-        for (int i = 0; i < grid.tile_height(tile); ++i) {
-          work.mask.rows[i] = first_pixels(grid.tile_width(tile));
-          work.max_index =
-              std::max(work.max_index, segment(grid.x(tile), grid.y(tile) + i, grid.tile_width(tile), row));
+      const int first = r * grid.columns();
+      const auto of_row =
+          std::span(tiles).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(grid.columns()));
+      for (int c = 0; c < grid.columns(); ++c) of_row[static_cast<std::size_t>(c)] = {first + c, 0, {}};
+      // By rows of pixels, not by tiles: memory is read in one stream.
+      for (int i = 0; i < grid.tile_height(first); ++i) {
+        for (TileWork& work : of_row) {
+          const int n = grid.tile_width(work.tile);
+          work.mask.rows[i] = first_pixels(n);
+          work.max_index = std::max(work.max_index, segment(grid.x(work.tile), grid.y(work.tile) + i, n, row));
         }
       }
     });
