@@ -89,13 +89,71 @@ HWY_INLINE void Store(const float* in, int n, Pixel<SampleType::float32>* out) {
   std::memcpy(out, in, static_cast<std::size_t>(n) * sizeof *out);
 }
 
+// A vector of two pixels of four lanes, stored.
+template <class D>
+HWY_INLINE void StorePair(D d, hn::Vec<D> colours, Pixel<SampleType::half>* out) {
+  const auto clamped = hn::Min(hn::Max(colours, hn::Set(d, -65504.f)), hn::Set(d, 65504.f));
+  hn::StoreU(HalfFromFloat(d, clamped), hn::Rebind<std::uint16_t, D>(), reinterpret_cast<std::uint16_t*>(out));
+}
+template <class D>
+HWY_INLINE void StorePair(D d, hn::Vec<D> colours, Pixel<SampleType::float32>* out) {
+  hn::StoreU(colours, d, reinterpret_cast<float*>(out));
+}
+
+// Pixels of four lanes, where a vector holds two of them: eight at a time, from sums to colours without a detour by
+// memory, as far as n goes. Returns how many were done; clears `all` if one had no weight.
+//
+// Pair k's weights, lanes 3 and 7, are turned to lanes 3 - k and 7 - k, so that one division serves all pairs.
+template <SampleType type>
+HWY_INLINE int ResolveInPairs(const Accumulator* values, int n, Pixel<type>* out, bool& all) {
+  const hn::CappedTag<double, 2 * kOpaqueLanes> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const hn::Rebind<float, decltype(d)> df;
+  const hn::RebindToSigned<decltype(df)> df_bits;
+  constexpr int pairs = kOpaqueLanes, step = 2 * pairs;
+  const auto* sums = reinterpret_cast<const std::int64_t*>(values);
+  const auto lane = hn::Iota(di, 0), three = hn::Set(di, 3);
+  const auto block = hn::AndNot(three, lane), in_block = hn::And(lane, three);
+  const auto float_three = hn::Set(df_bits, 3);
+  const auto is_alpha = hn::RebindMask(df, hn::Eq(hn::And(hn::Iota(df_bits, 0), float_three), float_three));
+  const auto one = hn::Set(d, 1.0);
+  auto positive = hn::Eq(one, one);
+  int i = 0;
+  for (; i + step <= n; i += step, sums += step * kOpaqueLanes) {
+    hn::Vec<decltype(d)> pair[pairs];
+    auto weights = one;
+    for (int k = 0; k < pairs; ++k) {
+      pair[k] = hn::ConvertTo(d, hn::LoadU(di, sums + 2 * k * kOpaqueLanes));
+      const auto is_here = hn::RebindMask(d, hn::Eq(in_block, hn::Set(di, std::int64_t{3 - k})));
+      const auto of_block = hn::TableLookupLanes(pair[k], hn::IndicesFromVec(d, hn::Or(block, three)));
+      weights = hn::IfThenElse(is_here, of_block, weights);
+    }
+    positive = hn::And(positive, hn::Ne(weights, hn::Zero(d)));
+    const auto scales = hn::Div(one, weights);
+    for (int k = 0; k < pairs; ++k) {
+      const auto own = hn::IndicesFromVec(d, hn::Or(block, hn::Set(di, std::int64_t{3 - k})));
+      const auto colours = hn::Mul(pair[k], hn::TableLookupLanes(scales, own));
+      StorePair(df, hn::IfThenElse(is_alpha, hn::Set(df, 1.f), hn::DemoteTo(df, colours)), out + i + 2 * k);
+    }
+  }
+  all = all && hn::AllTrue(d, positive);
+  return i;
+}
+
 template <SampleType type, int lanes>
 bool Resolve(const Accumulator* values, int n, void* pixels) {
+  constexpr bool in_pairs =
+      lanes == kOpaqueLanes && hn::MaxLanes(hn::CappedTag<double, 2 * kOpaqueLanes>()) == 2 * kOpaqueLanes;
   auto* out = static_cast<Pixel<type>*>(pixels);
   double scale[kChunk];
   float colours[4 * kChunk] = {};
   bool all = true;
-  for (int i = 0; i < n; i += kChunk, values += kChunk * lanes) {
+  int i = 0;
+  if constexpr (in_pairs) {
+    i = ResolveInPairs<type>(values, n, out, all);
+    values += static_cast<std::ptrdiff_t>(i) * lanes;
+  }
+  for (; i < n; i += kChunk, values += kChunk * lanes) {
     const int count = std::min(kChunk, n - i);
     all &= Reciprocals<lanes>(values, count, scale);
     Divide<lanes>(values, scale, count, colours);

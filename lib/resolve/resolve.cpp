@@ -49,6 +49,13 @@ bool covers(const Accumulator* values, int lanes, int n) noexcept {
 void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
                     const ColourImage& own, ColourImage& out, std::size_t near, Backdrop* backdrop) {
   constexpr int chunk_width = Backdrop::kChunk;  // pixels that are looked at together
+  // Chunks that show one layer alone are resolved together, in long runs.
+  const Accumulator* alone = nullptr;
+  int alone_from = x0, alone_to = x0;
+  const auto flush = [&] {
+    if (alone != nullptr) resolve_span(alone, lanes, alone_from, alone_to, y, own, out);
+    alone = nullptr;
+  };
   for (int x = x0; x < x1; x += chunk_width) {
     const int n = std::min(chunk_width, x1 - x);
     const Accumulator* present[kMostLayers];
@@ -63,9 +70,15 @@ void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x
     const bool looks = backdrop != nullptr && in_front > 0 && !(count == 1 && covers(present[0], lanes, n));
     if (backdrop != nullptr && !looks) backdrop->take_none(x, y);
     if (count == 1 && !looks) {
-      resolve_span(present[0], lanes, x, x + n, y, own, out);
+      if (alone == nullptr || present[0] != alone + static_cast<std::ptrdiff_t>(x - alone_from) * lanes) {
+        flush();
+        alone = present[0];
+        alone_from = x;
+      }
+      alone_to = x + n;
       continue;
     }
+    flush();
     const int column = out.window().x0 + x, row = out.window().y0 + y;
     Backdrop::Chunk chunk;
     const bool all = count > 0 && compose({present, count}, in_front, lanes, n, out.type(), out.pixel(column, row),
@@ -78,6 +91,7 @@ void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x
       if (any == 0) take_own(own, column + i, row, out);
     }
   }
+  flush();
 }
 
 void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out, int near,
