@@ -41,7 +41,8 @@ TEST(FrameCache, ReadsNothingUntilAskedAndThenWhatWasAskedForFirst) {
   cache_of_callback = &cache;
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(read, 0);
-  EXPECT_EQ(cache.get(3).frame, nullptr);
+  EXPECT_EQ(cache.look(3).frame, nullptr);
+  cache.get(3);
   wait_until([&] { return read == 6; });
   EXPECT_EQ(positions(after_first), std::vector<std::size_t>{3});
   EXPECT_EQ(positions(cache.loaded()).size(), 6u) << "all others after it, since they fit";
