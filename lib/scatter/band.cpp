@@ -4,6 +4,12 @@
 
 namespace pullfocus {
 
+int band_height(int span, int reach, int threads) noexcept {
+  const auto up = [](int a, int b) { return (a + b - 1) / b; };
+  const int high = std::clamp(up(span, 4 * threads), std::clamp(reach / 2, 8, 64), 128);
+  return up(span, up(span, high * threads) * threads);
+}
+
 void Band::begin(const BandLayout& layout, int y0, int y1) {
   layout_ = layout;
   y0_ = y0;

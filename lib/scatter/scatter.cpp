@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <iterator>
 #include <utility>
@@ -113,8 +114,12 @@ void Scatter::write_lines(Band& band, const TileWork& work, int first, const Sou
   for (std::size_t h = 0; h < kBlockRows; ++h) {
     const int row = static_cast<int>(h);
     const std::uint64_t mask = work.mask.rows[first + row];
-    any[h] = mask != 0 && y + row + ry >= image.y0 && y + row - ry < image.y1;
-    if (any[h]) collect<lanes>(sources, x, y + row, mask, lines[h]);
+    const int away = std::max({image.y0 - (y + row), y + row - (image.y1 - 1), 0});  // from the band, in rows
+    any[h] = mask != 0 && away <= ry;
+    if (!any[h]) continue;
+    Sources reaching = sources;
+    reaching.least = least_reaching(away);
+    collect<lanes>(reaching, x, y + row, mask, lines[h]);
   }
   if (std::none_of(any.begin(), any.end(), [](bool is) { return is; })) return;
   const auto write = [&](SourceRow<lanes> RowSources<lanes>::*of_kind, RowKind kind) {
@@ -147,7 +152,7 @@ void Scatter::write_lines(Band& band, const TileWork& work, int first, const Sou
 }
 
 template <int lanes>
-void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout,
+void Scatter::fill(Band& band, std::span<const TileWork* const> tiles, const Sources& sources, const BandLayout& layout,
                    Scratch& scratch) const {
   // Every reflection of the band within reach of the image: index k counts borders crossed, downwards.
   std::vector<BandImage> images;
@@ -162,7 +167,8 @@ void Scatter::fill(Band& band, std::span<const TileWork> tiles, const Sources& s
   }
 
   for (const BandImage& image : images) {
-    for (const TileWork& work : tiles) {
+    for (const TileWork* const tile : tiles) {
+      const TileWork& work = *tile;
       const int x = grid_.x(work.tile), y = grid_.y(work.tile);
       const TileMask::Bounds part = work.mask.bounds();
       const int rx = reach_x(work.max_index), ry = reach_y(work.max_index);
@@ -213,12 +219,12 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
   const int pad = (fold ? 1 : 2) * reach_x(largest) + kBlockColumns + BlockPlan::kMostSpread;
   const BandLayout layout{grid_.width, grid_.height, pad, lanes, fold};
 
-  // Low bands feed all threads evenly, but the lower they are, the more of them visit a source.
-  const int span = y_last - y_first;
-  const int share = (span + 4 * threads - 1) / (4 * threads);
-  const int band_rows = std::clamp(share, std::clamp(reach_y(largest) / 2, 8, 64), 128);
-  const int band_count = (span + band_rows - 1) / band_rows;
-  tbb::parallel_for(0, band_count, [&](int b) {
+  const int band_rows = band_height(y_last - y_first, reach_y(largest), threads);
+  const int band_count = (y_last - y_first + band_rows - 1) / band_rows;
+  const bool by_columns = reach_y(largest) >= kReachOfColumns;
+  std::vector<std::vector<const TileWork*>> tiles;
+  for (const LayerWork& layer : work) tiles.push_back(in_order(layer.tiles, grid_, by_columns));
+  const auto write_band = [&](int b) {
     Scratch& scratch = scratch_.local();
     std::vector<Band>& bands = scratch.bands;
     bands.resize(std::max(bands.size(), work.size()));
@@ -228,9 +234,9 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
       of_layer.range = work[l].range;
       bands[l].begin(layout, y0, y1);
       if (lanes == kOpaqueLanes) {
-        fill<kOpaqueLanes>(bands[l], work[l].tiles, of_layer, layout, scratch);
+        fill<kOpaqueLanes>(bands[l], tiles[l], of_layer, layout, scratch);
       } else {
-        fill<kAlphaLanes>(bands[l], work[l].tiles, of_layer, layout, scratch);
+        fill<kAlphaLanes>(bands[l], tiles[l], of_layer, layout, scratch);
       }
     }
     std::vector<std::vector<ColumnSpan>> spans(work.size());
@@ -244,7 +250,15 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
       if (!rows.empty()) take(y, rows);
       for (std::size_t l = 0; l < work.size(); ++l) bands[l].clear_row(y, spans[l]);
     }
-  });
+  };
+  // Whoever is free takes the next one: there are too few of them to be dealt out beforehand.
+  std::atomic<int> next{0};
+  tbb::parallel_for(
+      0, std::min(threads, band_count),
+      [&](int) {
+        for (int b = next++; b < band_count; b = next++) write_band(b);
+      },
+      tbb::simple_partitioner());
 }
 
 }  // namespace pullfocus

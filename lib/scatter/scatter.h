@@ -3,6 +3,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -51,6 +52,11 @@ class Scatter {
   int reach_y(int index) const noexcept { return reach_y_[static_cast<std::size_t>(index)]; }
 
  private:
+  // The smallest |index| up to which some kernel reaches `rows` rows.
+  int least_reaching(int rows) const noexcept {
+    return static_cast<int>(std::lower_bound(reach_y_.begin(), reach_y_.end(), rows) - reach_y_.begin());
+  }
+
   template <int lanes>
   using Lines = std::array<RowSources<lanes>, kBlockRows>;
 
@@ -69,8 +75,10 @@ class Scatter {
     }
   };
 
+  static constexpr int kReachOfColumns = 32;  // rows; measured, smaller kernels are no faster column by column
+
   template <int lanes>
-  void fill(Band& band, std::span<const TileWork> tiles, const Sources& sources, const BandLayout& layout,
+  void fill(Band& band, std::span<const TileWork* const> tiles, const Sources& sources, const BandLayout& layout,
             Scratch& scratch) const;
 
   template <int lanes>

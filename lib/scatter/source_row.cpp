@@ -164,9 +164,13 @@ void load_indices(const std::int16_t* from, int n, std::int16_t* out) noexcept {
   std::fill(out + n, out + SourceRow<kOpaqueLanes>::kColumns, kNeverCommitted);
 }
 
-std::uint64_t within(const std::int16_t* index, const Layers::Range& range) noexcept {
-  return HWY_DYNAMIC_DISPATCH(Within)(index, static_cast<std::int16_t>(range.first),
-                                      static_cast<std::int16_t>(range.last));
+// Of a row of indices: those that count.
+std::uint64_t counted(const std::int16_t* index, const Sources& sources) noexcept {
+  const auto within = [&](int first, int last) {
+    return HWY_DYNAMIC_DISPATCH(Within)(index, static_cast<std::int16_t>(first), static_cast<std::int16_t>(last));
+  };
+  const std::uint64_t all = within(sources.range.first, sources.range.last);
+  return sources.least > 0 ? all & ~within(1 - sources.least, sources.least - 1) : all;
 }
 
 template <int lanes, SampleType type>
@@ -180,7 +184,7 @@ void collect_typed(const Sources& sources, int x, int y, std::uint64_t mask, Row
   row.taken_back.mask = row.recoloured.mask = row.moved.mask = 0;
   if (sources.frame == nullptr) {
     load_indices(old_index, columns, row.added.index);
-    row.added.mask = mask & within(row.added.index, sources.range);
+    row.added.mask = mask & counted(row.added.index, sources);
     load_plain<lanes>(old_colours, row.added.mask, columns, 1, row.added.plus);
     return;
   }
@@ -188,7 +192,7 @@ void collect_typed(const Sources& sources, int x, int y, std::uint64_t mask, Row
   load_indices(sources.pending + offset, columns, row.added.index);
   load_indices(old_index, columns, row.taken_back.index);
   const std::int16_t *const is = row.added.index, *const was = row.taken_back.index;
-  const std::uint64_t now = mask & within(is, sources.range), then = mask & within(was, sources.range);
+  const std::uint64_t now = mask & counted(is, sources), then = mask & counted(was, sources);
   const std::uint64_t same = HWY_DYNAMIC_DISPATCH(Equal)(is, was);
   const std::uint64_t near = HWY_DYNAMIC_DISPATCH(Near)(is, was, KernelTable::kFarthestMove);
   const auto load_both = [&](SourceRow<lanes>& both) {

@@ -34,6 +34,7 @@ struct Sources {
 
   // Signed indices whose sources count; the others are left out.
   Layers::Range range{-kMostIndex + 1, kMostIndex};
+  int least = 0;  // so are those of a smaller |index|
   static constexpr std::int16_t kMostIndex = std::numeric_limits<std::int16_t>::max();
 };
 

@@ -32,6 +32,20 @@ int walk(int steps, int size) {
   return x;
 }
 
+TEST(BandHeight, IsAnEqualShareOfTheRowsForEveryThreadAndRound) {
+  for (const int reach : {0, 10, 80, 500}) {
+    for (int threads = 1; threads <= 9; ++threads) {
+      for (int span = 1; span <= 5000; span += 1 + span / 7) {
+        const int height = band_height(span, reach, threads), bands = (span + height - 1) / height;
+        ASSERT_GE(height, 1);
+        ASSERT_LE(height, 128);
+        const int rounds = (bands + threads - 1) / threads;
+        ASSERT_LE(height, (span + rounds * threads - 1) / (rounds * threads)) << span << " rows, " << threads;
+      }
+    }
+  }
+}
+
 TEST(Mirror, EqualsWalkingToAndFroBetweenTheBorders) {
   for (int size = 1; size <= 9; ++size) {
     for (int x = -60; x <= 60; ++x) ASSERT_EQ(mirror(x, size), walk(x, size)) << x << " in " << size;

@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Images, Scattering,
                                          Case{17, 13, 12, 1, float32}, Case{63, 15, 20, 1, half},
                                          Case{64, 16, 9, 1, float32}, Case{65, 17, 70, 1, half},
                                          Case{33, 50, 16, 0.3, float32}, Case{130, 33, 14, 2, half},
-                                         Case{200, 90, 10, 1, float32}));
+                                         Case{200, 90, 10, 1, float32}, Case{150, 60, 80, 1, half}));
 
 // Wide enough for three words of dirty bits a row, and low enough for a plain sum.
 INSTANTIATE_TEST_SUITE_P(Wide, Scattering, testing::Values(Case{2047, 2, 6, 1, half}, Case{4500, 3, 6, 1, float32}));
