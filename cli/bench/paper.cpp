@@ -58,7 +58,7 @@ struct Setting {
   double coc_step;
 };
 constexpr Setting kSettings[] = {{"disc", "layers", 1. / 32}, {"disc", "none", 1. / 32}, {"disc", "none", 1. / 4},
-                                 {"gaussian", "layers", 0},   {"gaussian", "none", 0},   {"gaussian", "none", 1. / 8}};
+                                 {"gaussian", "layers", 0},   {"gaussian", "none", 0},   {"gaussian", "none", 1. / 6}};
 
 FilterOptions options_for(const Setting& setting, int threads) {
   FilterOptions options;
