@@ -20,7 +20,8 @@ Run add_filter_command(CLI::App& app) {
   const char* group = "Output";
   RunArguments& run = a->run;
   app.add_option("-o,--out", run.output, "folder, pattern, or file name for a single frame")->required()->group(group);
-  app.add_option("--output", run.output_kind, "result; coc: signed CoC diameters; depth: depth as understood")
+  app.add_option("--output", run.output_kind,
+                 "result; coc: signed CoC diameters; depth: depth as understood; layer: each pixel's layer, 0 nearest")
       ->group(group)
       ->capture_default_str();
   app.add_option("--stats", run.stats, "file for one JSON line a frame; -: standard output")

@@ -57,6 +57,7 @@ FilterRun::FilterRun(const InputArguments& input, const CameraArguments& camera,
       writer_(shot_, shot_.camera(), run.output, compression_),
       options_(filter_options(filter, shot_.facts())),
       method_(describe_method(filter.method, options_)),
+      layer_of_(options_),
       stats_((writer_.prepare_folder(run.make_folder), run.stats)),
       slots_(frames_in_flight(threads_)),
       reading_(threads_) {
@@ -145,7 +146,7 @@ bool FilterRun::failed(std::size_t frame, std::exception_ptr error) {
 }
 
 void FilterRun::write_file(int frame, Slot& s) {
-  if (kind_ != OutputKind::result) return writer_.write_values(frame, s.read, method_, kind_);
+  if (kind_ != OutputKind::result) return writer_.write_values(frame, s.read, method_, kind_, layer_of_);
   const bool in_place = slots_.size() > 1 || !filters();
   writer_.write_colour(frame, s.read, method_, in_place ? s.read.frame.colour : filter_->result(),
                        filters() ? s.result_window : shot_.state_window(), s.scratch);

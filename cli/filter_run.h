@@ -72,6 +72,7 @@ class FilterRun : private FrameStages {
   FrameWriter writer_;
   FilterOptions options_;
   std::string method_;  // for the files' headers
+  LayerOf layer_of_;
   StatsFile stats_;
   std::unique_ptr<Filter> filter_;  // null: nothing is filtered
   std::vector<Slot> slots_;

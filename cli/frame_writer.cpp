@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "exr/writer.h"
@@ -15,14 +16,24 @@ OutputKind parse_output_kind(const std::string& text) {
   if (text == "result") return OutputKind::result;
   if (text == "coc") return OutputKind::coc;
   if (text == "depth") return OutputKind::depth;
-  throw Error(ErrorCode::usage, "--output '" + text + "' is not known: use result, coc or depth");
+  if (text == "layer") return OutputKind::layer;
+  throw Error(ErrorCode::usage, "--output '" + text + "' is not known: use result, coc, depth or layer");
 }
+
+LayerOf::LayerOf(const FilterOptions& options)
+    : table_(options.kernel.coc_step, options.kernel.max_coc_px, options.kernel.smallest_step),
+      layers_(table_, layer_borders(options.visibility)) {}
 
 namespace {
 
 // A name that does not end in .exr is a folder, there already or not.
 std::string output_name(const std::string& text) {
   return text.ends_with(".exr") || text.ends_with(".EXR") || text.ends_with('/') ? text : text + '/';
+}
+
+const char* channel_of(OutputKind kind) {
+  if (kind == OutputKind::coc) return "CoC";
+  return kind == OutputKind::layer ? "layer" : "Z";
 }
 
 }  // namespace
@@ -67,23 +78,23 @@ void FrameWriter::write_colour(int frame, const ShotFrame& read, const std::stri
   exr::write_exr(names_.path(frame), header(frame, read, method, window), channels);
 }
 
-void FrameWriter::write_values(int frame, ShotFrame& read, const std::string& method, OutputKind kind) const {
+void FrameWriter::write_values(int frame, ShotFrame& read, const std::string& method, OutputKind kind,
+                               const LayerOf& layer_of) const {
   const CocFunction coc = camera_.coc(frame, read.file);
+  const auto value_of = [&](float depth) {
+    const bool background = is_background(coc.kind, depth);
+    if (kind == OutputKind::depth) return background ? background_depth(coc.kind) : depth;
+    const float diameter = background ? coc.background() : coc(depth);
+    return kind == OutputKind::layer ? static_cast<float>(layer_of(diameter)) : diameter;
+  };
   Plane& values = read.frame.depth;
   const Window& w = values.window();
   for (int y = w.y0; y < w.y1; ++y) {
-    for (float& value : std::span(values.row(y), static_cast<std::size_t>(w.width()))) {
-      const bool background = is_background(coc.kind, value);
-      if (kind == OutputKind::coc) {
-        value = background ? coc.background() : coc(value);
-      } else if (background) {
-        value = background_depth(coc.kind);
-      }
-    }
+    const std::span row(values.row(y), static_cast<std::size_t>(w.width()));
+    std::transform(row.begin(), row.end(), row.begin(), value_of);
   }
-  const exr::OutputChannel channel{kind == OutputKind::coc ? "CoC" : "Z", Imf::FLOAT,
-                                   reinterpret_cast<const std::byte*>(values.row(w.y0)), sizeof(float),
-                                   sizeof(float) * static_cast<std::size_t>(w.width())};
+  const exr::OutputChannel channel{channel_of(kind), Imf::FLOAT, reinterpret_cast<const std::byte*>(values.row(w.y0)),
+                                   sizeof(float), sizeof(float) * static_cast<std::size_t>(w.width())};
   exr::write_exr(names_.path(frame), header(frame, read, method, w), {channel});
 }
 

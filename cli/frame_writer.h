@@ -6,12 +6,25 @@
 
 #include "exr/header.h"
 #include "exr/output_names.h"
+#include "filter/options.h"
+#include "scatter/layers.h"
 #include "shot.h"
 
 namespace pullfocus::cli {
 
-enum class OutputKind { result, coc, depth };
+enum class OutputKind { result, coc, depth, layer };
 OutputKind parse_output_kind(const std::string& text);  // throws Error(usage)
+
+// The layer that a filter with these options gives a pixel to.
+class LayerOf {
+ public:
+  explicit LayerOf(const FilterOptions& options);
+  int operator()(float coc) const noexcept { return layers_.of(table_.index(coc)); }  // of a signed diameter in pixels
+
+ private:
+  CocTable table_;
+  Layers layers_;
+};
 
 class FrameWriter {
  public:
@@ -32,8 +45,10 @@ class FrameWriter {
                     const Window& window, exr::ExtraChannels& scratch) const;
 
   // coc: signed CoC diameters in pixels as channel `CoC`; depth: depth as understood (background infinite) as channel
-  // `Z`. Replaces the frame's depth by them.
-  void write_values(int frame, ShotFrame& read, const std::string& method, OutputKind kind) const;
+  // `Z`; layer: the number of each pixel's layer, the nearest one's 0, as channel `layer`. Replaces the frame's depth
+  // by them.
+  void write_values(int frame, ShotFrame& read, const std::string& method, OutputKind kind,
+                    const LayerOf& layer_of) const;
 
  private:
   Imf::Header header(int frame, const ShotFrame& read, const std::string& method, const Window& data_window) const;

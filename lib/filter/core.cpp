@@ -24,11 +24,6 @@ const Window& checked(const Window& window) {
   return window;
 }
 
-std::span<const double> borders(const VisibilityOptions& visibility) noexcept {
-  if (visibility.kind != VisibilityOptions::Kind::layers) return {};
-  return visibility.borders;
-}
-
 }  // namespace
 
 FilterCore::FilterCore(const Window& state_window, const FilterOptions& filter_options,
@@ -40,7 +35,7 @@ FilterCore::FilterCore(const Window& state_window, const FilterOptions& filter_o
       sanitiser(kernels->options().max_radiance),
       arena(threads),
       scatter(*kernels, window.width(), window.height()),
-      layers(kernels->coc(), borders(options.visibility)) {
+      layers(kernels->coc(), layer_borders(options.visibility)) {
   if (options.visibility.kind == VisibilityOptions::Kind::bitmap) {
     occlusion.emplace(options.visibility, *kernels, window.width(), window.height());
   }

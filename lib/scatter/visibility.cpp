@@ -86,4 +86,9 @@ std::string describe(const VisibilityOptions& options) {
   return fmt::format("bitmap:{}, cut-off {:g} px", options.bitmap_size, options.cutoff_px);
 }
 
+std::span<const double> layer_borders(const VisibilityOptions& options) noexcept {
+  if (options.kind != VisibilityOptions::Kind::layers) return {};
+  return options.borders;
+}
+
 }  // namespace pullfocus

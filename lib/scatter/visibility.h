@@ -1,6 +1,7 @@
 // What hides what: settings.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,5 +28,8 @@ VisibilityOptions parse_visibility(std::string_view text);
 void validate(const VisibilityOptions& options);
 
 std::string describe(const VisibilityOptions& options);
+
+// Between the layers; none where there is but one, without layers. Lives as long as `options`.
+std::span<const double> layer_borders(const VisibilityOptions& options) noexcept;
 
 }  // namespace pullfocus

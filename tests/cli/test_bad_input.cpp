@@ -81,7 +81,7 @@ TEST_F(BadInput, WrongOptionsAreNamedAndExitWithTwo) {
                {"--max-radiance 0", "--max-radiance"},
                {"--max-radiance 1e9", "--max-radiance"},
                {"--output-type uint", "--output-type"},
-               {"--output layer", "--output"},
+               {"--output layers", "--output"},
                {"--visibility magic", "--visibility"},
                {"--visibility bitmap:33", "--visibility"},
                {"--visibility bitmap:66", "--visibility"},

@@ -95,6 +95,21 @@ TEST_F(FilterCommand, WritesTheDiametersAndTheDepthItWorksWith) {
   EXPECT_EQ(exr::test::read_back(out(1)).value("Z", 20, 1), 7);
 }
 
+TEST_F(FilterCommand, WritesEachPixelsLayer) {
+  const auto layers_at = [&](const std::string& options) {  // of the wall, of the ball in focus
+    EXPECT_EQ(filter("--output layer --frames 1 " + options).code, 0);
+    const TestImage image = exr::test::read_back(out(1));
+    EXPECT_EQ(image.channels.size(), 1u);
+    return std::pair(image.value("layer", 20, 1), image.value("layer", 5, 8));
+  };
+  using Of = std::pair<float, float>;
+  EXPECT_EQ(layers_at("--fstop 0.02"), Of(2, 1)) << "30 px";
+  EXPECT_EQ(layers_at("--fstop 2"), Of(1, 1)) << "0.3 px";
+  EXPECT_EQ(layers_at("--fstop 0.02 --focus 9 --visibility layers:-8,-1,1"), Of(1, 0)) << "-2.6 px, -32 px";
+  EXPECT_EQ(layers_at("--fstop 0.02 --visibility layers:1,9,99"), Of(2, 0));
+  EXPECT_EQ(layers_at("--fstop 0.02 --visibility none"), Of(0, 0));
+}
+
 TEST_F(FilterCommand, FocusAtAPixelIsFocusAtItsDepthInTheFirstFrameOfTheShot) {
   ASSERT_EQ(filter("--focus 6.8").code, 0);
   const TestImage by_distance = exr::test::read_back(out(5));
