@@ -45,11 +45,16 @@ class Selection {
     for (; wait > 0 && of_wait[static_cast<std::size_t>(wait)] <= rest; --wait) {
       rest -= of_wait[static_cast<std::size_t>(wait)];
     }
-    take_all(wait + 1);
-    if (wait == 0) return n - rest;
+    if (wait == 0) {
+      take_all(1);
+      return n - rest;
+    }
     Masks eligible(tiles_.size());
     for_each_tile([&](std::size_t t) {
-      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) { eligible[t].rows[row] |= w == wait ? pixels : 0; });
+      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) {
+        taken_[t].rows[row] |= w > wait ? pixels : 0;
+        eligible[t].rows[row] |= w == wait ? pixels : 0;
+      });
     });
     take(rest, eligible);
     return n;
@@ -59,7 +64,7 @@ class Selection {
   void take_all(int wait) {
     if (!waiting_.any() || wait > waiting_.most()) return;
     for_each_tile([&](std::size_t t) {
-      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) { taken_[t].rows[row] |= w >= wait ? pixels : 0; });
+      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) { taken_[t].rows[row] |= w > wait ? pixels : 0; });
     });
   }
 
