@@ -2,16 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pullfocus {
-
-namespace {
-
-// A pixel is judged as part of a block if its kernels cover so many pixels: the steps between blocks are blurred then.
-constexpr float kLeastArea = 8;
-
-}  // namespace
 
 Gain::Gain(const Pending& pending, const ColourMetric& metric) : pending_(pending), metric_(metric) {
   for (int index = 0; index < pending.kernels.coc().size(); ++index) {
@@ -21,12 +13,9 @@ Gain::Gain(const Pending& pending, const ColourMetric& metric) : pending_(pendin
   }
 }
 
-template <SampleType type, typename PixelAt>
-void Gain::load(int n, PixelAt&& pixel_at, Colours& out) const noexcept {
-  for (int i = 0; i < n; ++i) {
-    const Pixel<type> pixel = pixel_at(i);
-    for (int c = 0; c < 3; ++c) out.channel[c][i] = sample_value(pixel.rgba[c]);
-  }
+template <SampleType type>
+void Gain::load(const Pixel<type>* pixels, int n, PlanarRow& out) const noexcept {
+  to_planes(pixels, n, out);
   if (metric_.distance() == ColourDistance::rgb) return;
   for (int i = 0; i < n; ++i) {
     const auto colour = metric_({static_cast<double>(out.channel[0][i]), static_cast<double>(out.channel[1][i]),
@@ -36,78 +25,49 @@ void Gain::load(int n, PixelAt&& pixel_at, Colours& out) const noexcept {
 }
 
 template <SampleType type>
-void Gain::load_rows(int x, int y, int n, Colours& now, Colours& then) const noexcept {
+void Gain::load_rows(int x, int y, int n, PlanarRow& now, PlanarRow& then) const noexcept {
   const Window& w = pending_.frame.window();
   const auto* in = reinterpret_cast<const Pixel<type>*>(pending_.frame.colour.pixel(w.x0 + x, w.y0 + y));
   const auto* old = reinterpret_cast<const Pixel<type>*>(pending_.state.colour.pixel(w.x0 + x, w.y0 + y));
   if (all_sane<type>(pending_.sanitiser, in, n)) {
-    load<type>(
-        n, [&](int i) { return in[i]; }, now);
+    load(in, n, now);
   } else {
-    load<type>(
-        n, [&](int i) { return pending_.sanitiser(in[i]); }, now);
+    Pixel<type> sane[kTileWidth];
+    for (int i = 0; i < n; ++i) sane[i] = pending_.sanitiser(in[i]);
+    load(sane, n, now);
   }
-  load<type>(
-      n, [&](int i) { return old[i]; }, then);
+  load(old, n, then);
 }
 
 std::uint64_t Gain::row(int x, int y, int n, float* out) const noexcept {
   const Window& w = pending_.frame.window();
   const std::size_t first =
       static_cast<std::size_t>(y) * static_cast<std::size_t>(w.width()) + static_cast<std::size_t>(x);
-  const std::int16_t *const was = &pending_.state.index[first], *const is = &pending_.index[first];
-  Colours now, then, shown;
-  dispatch(pending_.frame.colour.type(), [&]<SampleType type>() { load_rows<type>(x, y, n, now, then); });
+  GainRow row;
+  dispatch(pending_.frame.colour.type(), [&]<SampleType type>() { load_rows<type>(x, y, n, row.now, row.then); });
   const std::byte* result = pending_.shown.pixel(w.x0 + x, w.y0 + y);
-  dispatch(pending_.shown.type(), [&]<SampleType type>() {
-    const auto* pixels = reinterpret_cast<const Pixel<type>*>(result);
-    load<type>(
-        n, [&](int i) { return pixels[i]; }, shown);
-  });
-
-  // Loops without branches, which the compiler turns into vectors.
-  float changed[kTileWidth] = {}, aa[kTileWidth] = {}, bb[kTileWidth] = {}, ab[kTileWidth] = {};
-  for (int c = 0; c < 3; ++c) {
-    for (int i = 0; i < n; ++i) {
-      const float d = now.channel[c][i] - then.channel[c][i];
-      const float a = now.channel[c][i] - shown.channel[c][i], b = then.channel[c][i] - shown.channel[c][i];
-      changed[i] += d * d;
-      aa[i] += a * a;
-      bb[i] += b * b;
-      ab[i] += a * b;
-    }
-  }
-  // In [0, 1), other ones in every call.
-  const auto spread = [&](int column, int row) {
-    const std::uint32_t at =
-        static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(w.width()) + static_cast<std::uint32_t>(column);
-    return 0x1p-24f * static_cast<float>(scrambled(at + 0x9e3779b9u * pending_.round) >> 8);
+  dispatch(pending_.shown.type(),
+           [&]<SampleType type>() { load(reinterpret_cast<const Pixel<type>*>(result), n, row.shown); });
+  const auto copy = [&](const std::int16_t* from, std::int16_t* to) {
+    std::copy_n(from, n, to);
+    std::fill(to + n, to + kTileWidth, std::int16_t{0});
   };
-  float of_block[kTileWidth / kBlockWidth];
-  const int tile_x = x / kTileWidth * kTileWidth;
-  for (int b = 0; b < kTileWidth / kBlockWidth; ++b) {
-    of_block[b] = spread(tile_x + b * kBlockWidth, y / kBlockHeight * kBlockHeight);
+  copy(&pending_.index[first], row.is);
+  copy(&pending_.state.index[first], row.was);
+
+  const auto position = [&](int column, int line) {  // another one in every call
+    return static_cast<std::uint32_t>(line) * static_cast<std::uint32_t>(w.width()) +
+           static_cast<std::uint32_t>(column) + 0x9e3779b9u * pending_.round;
+  };
+  row.first = position(x, y);
+  for (int i = 0; i < kTileWidth;) {
+    const int column = (x + i) / kBlockWidth * kBlockWidth;  // tiles begin at multiples of it
+    const float of_block = fraction_of(scrambled(position(column, y / kBlockHeight * kBlockHeight)));
+    for (; i < kTileWidth && x + i < column + kBlockWidth; ++i) row.of_block[i] = of_block;
   }
-  bool as_block[kTileWidth];
-  for (int i = 0; i < n; ++i) {
-    // A held-out pixel shows itself, as one in focus does.
-    const auto now_at = static_cast<std::size_t>(reach_index(is[i])),
-               then_at = static_cast<std::size_t>(reach_index(was[i]));
-    const float area_now = areas_[now_at], area_then = areas_[then_at];
-    const float of_colour = changed[i] * std::max(fourth_roots_[now_at], fourth_roots_[then_at]);
-    const float of_kernel = aa[i] * area_now + bb[i] * area_then - 2 * ab[i] * std::min(area_now, area_then);
-    const bool only_kernel = was[i] != is[i] && !(changed[i] > 0);
-    as_block[i] = only_kernel && std::max(area_now, area_then) * kLeastArea <= 1;
-    const float at_random = as_block[i] ? of_block[(x + i - tile_x) / kBlockWidth] : spread(x + i, y);
-    const float of_move = only_kernel ? of_kernel * at_random : std::max(of_kernel, of_colour);
-    const float gain = was[i] == is[i] ? of_colour : of_move;
-    constexpr float most = std::numeric_limits<float>::max();  // also where it is no number, among huge colours
-    out[i] = gain <= most ? std::max(gain, 0.f) : most;
-    if (was[i] == kNeverCommitted) out[i] = kFirstOfAll;
-  }
-  std::uint64_t blocks = 0;
-  for (int i = 0; i < n; ++i) blocks |= std::uint64_t{as_block[i]} << i;
-  return blocks;
+  row.areas = areas_.data();
+  row.fourth_roots = fourth_roots_.data();
+  return gains(row, n, out);
 }
 
 }  // namespace pullfocus

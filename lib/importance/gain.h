@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "image/tiles.h"
+#include "importance/gain_row.h"
 #include "importance/order.h"
 #include "importance/segment.h"
 
@@ -19,13 +20,10 @@ class Gain {
   std::uint64_t row(int x, int y, int n, float* out) const noexcept;
 
  private:
-  struct Colours {
-    float channel[3][kTileWidth];
-  };
-  template <SampleType type, typename PixelAt>
-  void load(int n, PixelAt&& pixel_at, Colours& out) const noexcept;
   template <SampleType type>
-  void load_rows(int x, int y, int n, Colours& now, Colours& then) const noexcept;
+  void load(const Pixel<type>* pixels, int n, PlanarRow& out) const noexcept;
+  template <SampleType type>
+  void load_rows(int x, int y, int n, PlanarRow& now, PlanarRow& then) const noexcept;
 
   const Pending& pending_;
   const ColourMetric& metric_;
