@@ -64,7 +64,7 @@ class Selection {
   void take_all(int wait) {
     if (!waiting_.any() || wait > waiting_.most()) return;
     for_each_tile([&](std::size_t t) {
-      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) { taken_[t].rows[row] |= w > wait ? pixels : 0; });
+      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) { taken_[t].rows[row] |= w >= wait ? pixels : 0; });
     });
   }
 
