@@ -73,8 +73,7 @@ const Table kThreadsTable{
     "threads", "Threads",
     "How many times faster than on one thread a linear frame is, and one in which a patch of 2 % of the pixels "
     "changes its colour: 1920x1080, the scene of `naive`, default settings, each after an untimed frame with as many "
-    "threads; median "
-    "(range).",
+    "threads; median (range).",
     "1 to one a processor", print};
 
 }  // namespace pullfocus::cli::bench

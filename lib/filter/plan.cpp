@@ -34,9 +34,7 @@ void measure_coc(const Frame& frame, const CocFunction& coc, const CocTable& tab
 
 std::vector<Plan::Layer> measure_layers(const FilterOptions& options, const KernelTable& kernels,
                                         const SourceState& state, const std::vector<TileWork>& tiles) {
-  const bool split = options.visibility.kind == VisibilityOptions::Kind::layers;
-  const Layers layers(kernels.coc(),
-                      split ? std::span<const double>(options.visibility.borders) : std::span<const double>{});
+  const Layers layers(kernels.coc(), layer_borders(options.visibility));
   const Window& w = state.colour.window();
   const Scatter scatter(kernels, w.width(), w.height());
   const TileGrid grid{w.width(), w.height()};
