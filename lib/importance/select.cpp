@@ -4,9 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
-#include <functional>
-#include <utility>
+#include <cstdint>
 
 #include "importance/tile_ranks.h"
 
@@ -17,6 +15,34 @@ namespace {
 using Masks = std::vector<TileMask>;  // of every changed tile
 
 constexpr std::size_t kGrain = 8;  // tiles that a thread looks at together
+
+// Numbers of pixels by a digit of their keys; in parts, so that pixels with the same digit do not wait for each other.
+class Digits {
+ public:
+  static constexpr unsigned kValues = 256;
+
+  template <typename Digit>
+  void count(const TileKeys& keys, const TileMask& mask, Digit&& digit) noexcept {
+    for (int i = 0; i < kTileHeight; ++i) {
+      const std::uint16_t* const row = keys.of[i];
+      if (~mask.rows[i] == 0) {
+        for (int p = 0; p < kTileWidth; ++p) ++of_[p % kParts][digit(row[p])];
+      } else {
+        for_each_pixel(mask.rows[i], [&](int p) { ++of_[p % kParts][digit(row[p])]; });
+      }
+    }
+  }
+
+  void add_to(std::vector<std::int64_t>& sums) const {
+    for (const auto& part : of_) {
+      for (unsigned value = 0; value < kValues; ++value) sums[value] += part[value];
+    }
+  }
+
+ private:
+  static constexpr int kParts = 4;
+  std::uint32_t of_[kParts][kValues] = {};
+};
 
 class Selection {
  public:
@@ -34,37 +60,19 @@ class Selection {
   // Takes the n that have waited longest, of the same wait those that come first; returns how many there were.
   std::int64_t take_oldest(std::int64_t n) {
     if (!waiting_.any() || n <= 0) return 0;
-    const auto bins = static_cast<std::size_t>(waiting_.most()) + 1;
-    const auto of_wait = histogram(bins, [&](std::size_t t, auto&& count) {
-      for_each_wait(t, [&](int, std::uint64_t pixels, int wait) {
-        count(static_cast<std::size_t>(wait), std::popcount(pixels));
-      });
-    });
     std::int64_t rest = n;
-    int wait = waiting_.most();
-    for (; wait > 0 && of_wait[static_cast<std::size_t>(wait)] <= rest; --wait) {
-      rest -= of_wait[static_cast<std::size_t>(wait)];
-    }
-    if (wait == 0) {
-      take_all(1);
-      return n - rest;
-    }
-    Masks eligible(tiles_.size());
-    for_each_tile([&](std::size_t t) {
-      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) {
-        taken_[t].rows[row] |= w > wait ? pixels : 0;
-        eligible[t].rows[row] |= w == wait ? pixels : 0;
-      });
-    });
-    take(rest, eligible);
+    const Last last = take_greatest(waits(), left(), static_cast<unsigned>(waiting_.most()), rest);
+    if (last.key == 0) return n - rest;  // the others do not wait
+    take(rest, last.pixels);
     return n;
   }
 
   // Takes all that have waited so long, >= 1.
   void take_all(int wait) {
     if (!waiting_.any() || wait > waiting_.most()) return;
+    const std::vector<TileKeys>& of = waits();
     for_each_tile([&](std::size_t t) {
-      for_each_wait(t, [&](int row, std::uint64_t pixels, int w) { taken_[t].rows[row] |= w >= wait ? pixels : 0; });
+      add(within(of[t], tiles_[t].mask, static_cast<unsigned>(wait), TileKeys::kMost), taken_[t]);
     });
   }
 
@@ -77,6 +85,12 @@ class Selection {
   }
 
  private:
+  // The pixels of the last key of which any might be taken.
+  struct Last {
+    unsigned key;
+    Masks pixels;
+  };
+
   template <typename Visit>
   void for_each_tile(Visit&& visit) const {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles_.size(), kGrain), [&](const auto& range) {
@@ -84,41 +98,25 @@ class Selection {
     });
   }
 
-  // visit(t, count) may count(bin, pixels).
-  template <typename Visit>
-  std::vector<std::int64_t> histogram(std::size_t bins, Visit&& visit) const {
-    tbb::enumerable_thread_specific<std::vector<std::int64_t>> parts(bins);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles_.size(), kGrain), [&](const auto& range) {
-      std::vector<std::int64_t>& part = parts.local();
-      for (std::size_t t = range.begin(); t < range.end(); ++t) {
-        visit(t, [&](std::size_t bin, int pixels) { part[bin] += pixels; });
-      }
-    });
-    std::vector<std::int64_t> sum(bins);
-    for (const auto& part : parts) std::transform(sum.begin(), sum.end(), part.begin(), sum.begin(), std::plus<>());
-    return sum;
+  static void add(const TileMask& pixels, TileMask& to) noexcept {
+    for (int i = 0; i < kTileHeight; ++i) to.rows[i] |= pixels.rows[i];
   }
 
-  // visit(row, pixels, wait) for the changed pixels of a tile that wait, those of one wait in a row together if all
-  // are.
-  template <typename Visit>
-  void for_each_wait(std::size_t t, Visit&& visit) const {
-    const int x = grid_.x(tiles_[t].tile), n = grid_.tile_width(tiles_[t].tile);
-    for (int i = 0; i < grid_.tile_height(tiles_[t].tile); ++i) {
-      const std::uint64_t row = tiles_[t].mask.rows[i];
-      if (row == 0) continue;
-      int waits[kTileWidth], others = 0;
-      waiting_.of_row(static_cast<std::size_t>(grid_.y(tiles_[t].tile) + i) * static_cast<std::size_t>(grid_.width) + x,
-                      n, waits);
-      for (int p = 0; p < n; ++p) others |= waits[p] ^ waits[0];
-      if (others == 0) {
-        if (waits[0] > 0) visit(i, row, waits[0]);
-        continue;
-      }
-      for_each_pixel(row, [&](int p) {
-        if (waits[p] > 0) visit(i, std::uint64_t{1} << p, waits[p]);
+  // Of every changed pixel.
+  const std::vector<TileKeys>& waits() {
+    if (waits_.empty()) {
+      waits_.resize(tiles_.size());
+      for_each_tile([&](std::size_t t) {
+        const int tile = tiles_[t].tile;
+        for (int i = 0; i < grid_.tile_height(tile); ++i) {
+          if (tiles_[t].mask.rows[i] == 0) continue;
+          const auto first = static_cast<std::size_t>(grid_.y(tile) + i) * static_cast<std::size_t>(grid_.width) +
+                             static_cast<std::size_t>(grid_.x(tile));
+          waiting_.of_row(first, grid_.tile_width(tile), waits_[t].of[i]);
+        }
       });
     }
+    return waits_;
   }
 
   Masks left() const {
@@ -131,8 +129,7 @@ class Selection {
 
   // Takes the n of the eligible that come first: pixels never committed, then by rank.
   void take(std::int64_t n, const Masks& eligible) {
-    if (!ranks_.any_never_committed())
-      return take_ranks(n, eligible, [&](std::size_t t, int unit) { return ranks_.rank(t, unit); });
+    if (!ranks_.any_never_committed()) return take_ranks(n, eligible);
     Masks never(eligible), others(eligible);
     std::int64_t count = 0;
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
@@ -143,35 +140,29 @@ class Selection {
       }
       count += never[t].count();
     }
-    take_ranks(std::min(n, count), never, [](std::size_t, int) { return std::size_t{0}; });
-    take_ranks(n - count, others, [&](std::size_t t, int unit) { return ranks_.rank(t, unit); });
+    take_ties(std::min(n, count), never);
+    take_ranks(n - count, others);
   }
 
-  // Units by rank, of the same rank by scrambled position, and of the last unit pixels by scrambled position.
-  template <typename Rank>
-  void take_ranks(std::int64_t n, const Masks& eligible, Rank&& rank) {
+  // Units by rank, and ties as below.
+  void take_ranks(std::int64_t n, const Masks& eligible) {
     if (n <= 0) return;
-    const auto take_above = [&](const Masks& of, auto&& rank_of, std::int64_t& left) {
-      const auto counts = histogram(TileRanks::kRanks, [&](std::size_t t, auto&& count) {
-        ranks_.for_each_unit(t, of[t], [&](int unit, int pixels) { count(rank_of(t, unit), pixels); });
-      });
-      std::size_t least = TileRanks::kRanks - 1;
-      for (; least > 0 && counts[least] <= left; --least) left -= counts[least];
-      Masks at_least(tiles_.size());
-      for_each_tile([&](std::size_t t) {
-        ranks_.for_each_unit(t, of[t], [&](int unit, int) {
-          const std::size_t r = rank_of(t, unit);
-          if (r > least) ranks_.add(t, unit, of[t], taken_[t]);
-          if (r == least) ranks_.add(t, unit, of[t], at_least[t]);
+    const Last last = take_greatest(ranks_.ranks(), eligible, TileKeys::kMost, n);
+    take_ties(n, last.pixels);
+  }
+
+  // Units by scrambled position, and of the last unit pixels by scrambled position.
+  void take_ties(std::int64_t n, const Masks& eligible) {
+    if (n <= 0) return;
+    std::vector<TileKeys> keys(tiles_.size());
+    for_each_tile([&](std::size_t t) {
+      for (int i = 0; i < kTileHeight; ++i) {
+        for_each_pixel(eligible[t].rows[i], [&](int p) {
+          keys[t].of[i][p] = static_cast<std::uint16_t>(ranks_.scrambled_unit(t, i, p) >> 16);
         });
-      });
-      return at_least;
-    };
-    const Masks ties = take_above(eligible, rank, n);
-    if (n <= 0) return;
-    const auto hash = [&](std::size_t t, int unit) { return ranks_.scrambled_position(t, unit); };
-    const Masks last = take_above(
-        ties, [&](std::size_t t, int unit) { return std::size_t{hash(t, unit) >> 17}; }, n);
+      }
+    });
+    const Last last = take_greatest(keys, eligible, TileKeys::kMost, n);
     if (n <= 0) return;
     struct Tied {
       std::uint32_t unit, pixel;
@@ -180,9 +171,11 @@ class Selection {
     };
     std::vector<Tied> pixels;
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
-      for_each_tile_pixel(grid_, {tiles_[t].tile, 0, last[t]}, [&](int row, int p, int, int) {
-        pixels.push_back({hash(t, ranks_.unit(t, row, p)), hash(t, row * kTileWidth + p), t, row, p});
-      });
+      for (int i = 0; i < kTileHeight; ++i) {
+        for_each_pixel(last.pixels[t].rows[i], [&](int p) {
+          pixels.push_back({ranks_.scrambled_unit(t, i, p), ranks_.scrambled_pixel(t, i, p), t, i, p});
+        });
+      }
     }
     std::sort(pixels.begin(), pixels.end(),
               [](const Tied& a, const Tied& b) { return a.unit != b.unit ? a.unit > b.unit : a.pixel > b.pixel; });
@@ -191,10 +184,51 @@ class Selection {
     }
   }
 
+  // Takes the eligible pixels of the greatest keys as long as all of the same key are among the first n, and lowers n
+  // by their number. `most`: no key is greater.
+  Last take_greatest(const std::vector<TileKeys>& keys, const Masks& eligible, unsigned most, std::int64_t& n) {
+    unsigned key = 0;
+    const auto descend = [&](const std::vector<std::int64_t>& counts) {  // the last digit of which any might be taken
+      unsigned digit = Digits::kValues - 1;
+      for (; digit > 0 && counts[digit] <= n; --digit) n -= counts[digit];
+      return digit;
+    };
+    if (most >= Digits::kValues) {
+      key = Digits::kValues * descend(digits(eligible, keys, [](unsigned k) { return k / Digits::kValues; }));
+      Masks alike(tiles_.size());
+      for_each_tile([&](std::size_t t) {
+        if (eligible[t].any()) alike[t] = within(keys[t], eligible[t], key, key + Digits::kValues - 1);
+      });
+      key += descend(digits(alike, keys, [](unsigned k) { return k % Digits::kValues; }));
+    } else {
+      key = descend(digits(eligible, keys, [](unsigned k) { return k; }));
+    }
+    Last last{key, Masks(tiles_.size())};
+    for_each_tile([&](std::size_t t) {
+      if (!eligible[t].any()) return;
+      add(within(keys[t], eligible[t], key + 1, TileKeys::kMost), taken_[t]);
+      last.pixels[t] = within(keys[t], eligible[t], key, key);
+    });
+    return last;
+  }
+
+  template <typename Digit>
+  std::vector<std::int64_t> digits(const Masks& of, const std::vector<TileKeys>& keys, Digit&& digit) const {
+    tbb::enumerable_thread_specific<Digits> parts;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles_.size(), kGrain), [&](const auto& range) {
+      Digits& part = parts.local();
+      for (std::size_t t = range.begin(); t < range.end(); ++t) part.count(keys[t], of[t], digit);
+    });
+    std::vector<std::int64_t> sums(Digits::kValues);
+    for (const Digits& part : parts) part.add_to(sums);
+    return sums;
+  }
+
   const std::vector<TileWork>& tiles_;
   const TileGrid grid_;
   const WaitingTimes& waiting_;
   const TileRanks ranks_;
+  std::vector<TileKeys> waits_;  // once asked for
   Masks taken_;
 };
 

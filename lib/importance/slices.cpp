@@ -59,9 +59,9 @@ SliceQueue::SliceQueue(std::vector<TileWork> tiles, const Pending& pending, cons
       if (work.mask.rows[i] == 0) continue;
       const int x = grid.x(work.tile), y = grid.y(work.tile) + i;
       if (waiting.any()) {
-        int waits[kTileWidth];
+        std::uint16_t waits[kTileWidth];
         waiting.of_row(position(grid, x, y), width, waits);
-        for_each_pixel(work.mask.rows[i], [&](int p) { waited[t] = std::max(waited[t], waits[p]); });
+        for_each_pixel(work.mask.rows[i], [&](int p) { waited[t] = std::max<int>(waited[t], waits[p]); });
       }
       if (i % step != 0) continue;
       written += step * row_edges(work, i).written;

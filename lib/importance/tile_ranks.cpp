@@ -29,6 +29,29 @@ std::uint16_t rank_of(float priority) noexcept {
   return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(priority) >> 16);
 }
 
+// Of the blocks of kBlockHeight rows of a tile, from row `top` on.
+void rank_blocks(int top, const float (&of)[kBlockHeight][kTileWidth], const TileMask& by_block, TileKeys& ranks) {
+  std::uint64_t any = 0;
+  for (int k = 0; k < kBlockHeight; ++k) any |= by_block.rows[top + k];
+  while (any != 0) {
+    const int column = std::countr_zero(any) / kBlockWidth * kBlockWidth;
+    const std::uint64_t block = first_pixels(kBlockWidth) << column;
+    any &= ~block;
+    double sum = 0;
+    int pixels = 0;
+    for (int k = 0; k < kBlockHeight; ++k) {
+      for_each_pixel(by_block.rows[top + k] & block, [&](int p) {
+        sum += static_cast<double>(of[k][p]);
+        ++pixels;
+      });
+    }
+    const std::uint16_t rank = rank_of(static_cast<float>(sum / pixels));
+    for (int k = 0; k < kBlockHeight; ++k) {
+      for_each_pixel(by_block.rows[top + k] & block, [&](int p) { ranks.of[top + k][p] = rank; });
+    }
+  }
+}
+
 }  // namespace
 
 TileRanks::TileRanks(const std::vector<TileWork>& tiles, const Pending& pending, const ImportanceOptions& options)
@@ -45,30 +68,22 @@ TileRanks::TileRanks(const std::vector<TileWork>& tiles, const Pending& pending,
 
 void TileRanks::rank_tile(std::size_t tile, const TileGrid& grid, const Priorities& priorities) {
   const TileWork& work = tiles_[tile];
-  std::uint16_t* const out = ranks_[tile].of;
-  float of_row[kTileWidth];
-  double sum[kBlocksAcross] = {};
-  int pixels[kBlocksAcross] = {};
+  TileMask& by_block = by_block_[tile];
+  float of[kBlockHeight][kTileWidth];
   for (int i = 0; i < kTileHeight; ++i) {
     const std::uint64_t row = work.mask.rows[i];
     if (row != 0) {
       const int first = std::countr_zero(row), n = static_cast<int>(std::bit_width(row)) - first;
-      const std::uint64_t in_blocks =
-          row & priorities.row(grid.x(work.tile) + first, grid.y(work.tile) + i, n, of_row + first) << first;
-      by_block_[tile].rows[i] = in_blocks;
-      for_each_pixel(row & ~in_blocks, [&](int p) {
-        out[i * kTileWidth + p] = buckets_ ? static_cast<std::uint16_t>(of_row[p]) : rank_of(of_row[p]);
-      });
-      for_each_pixel(in_blocks, [&](int p) {
-        sum[p / kBlockWidth] += static_cast<double>(of_row[p]);
-        ++pixels[p / kBlockWidth];
-      });
+      float* const of_row = of[i % kBlockHeight] + first;
+      by_block.rows[i] = row & priorities.row(grid.x(work.tile) + first, grid.y(work.tile) + i, n, of_row) << first;
+      std::uint16_t* const out = ranks_[tile].of[i] + first;
+      if (buckets_) {
+        std::transform(of_row, of_row + n, out, [](float bucket) { return static_cast<std::uint16_t>(bucket); });
+      } else {
+        std::transform(of_row, of_row + n, out, rank_of);
+      }
     }
-    if (i % kBlockHeight != kBlockHeight - 1) continue;
-    for (int b = 0; b < kBlocksAcross; ++b) {
-      if (pixels[b] > 0) out[block(i, b * kBlockWidth)] = rank_of(static_cast<float>(sum[b] / pixels[b]));
-      sum[b] = pixels[b] = 0;
-    }
+    if (i % kBlockHeight == kBlockHeight - 1) rank_blocks(i + 1 - kBlockHeight, of, by_block, ranks_[tile]);
   }
 }
 

@@ -6,15 +6,15 @@
 
 namespace pullfocus {
 
-void WaitingTimes::of_row(std::size_t first, int n, int* out) const noexcept {
+void WaitingTimes::of_row(std::size_t first, int n, std::uint16_t* out) const noexcept {
   if (since_.empty()) {
-    std::fill_n(out, n, 0);
+    std::fill_n(out, n, std::uint16_t{0});
     return;
   }
   const std::uint32_t *const since = &since_[first], next = calls_ + 1;
   for (int i = 0; i < n; ++i) {  // without branches: the compiler turns it into vectors
-    const auto calls = static_cast<std::int32_t>(std::min(next - since[i], std::uint32_t{kMost}));
-    out[i] = since[i] != 0 ? calls : 0;
+    const std::uint32_t calls = std::min(next - since[i], std::uint32_t{kMost});
+    out[i] = static_cast<std::uint16_t>(since[i] != 0 ? calls : 0);
   }
 }
 

@@ -16,7 +16,7 @@ class WaitingTimes {
 
   int of(std::size_t pixel) const noexcept { return since_.empty() ? 0 : wait(since_[pixel]); }
   // Of n pixels from `first` on.
-  void of_row(std::size_t first, int n, int* out) const noexcept;
+  void of_row(std::size_t first, int n, std::uint16_t* out) const noexcept;
   bool any() const noexcept { return !last_.empty(); }
   // No pixel waits longer.
   int most() const noexcept { return wait(any() ? 1 : 0); }
