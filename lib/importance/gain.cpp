@@ -1,15 +1,12 @@
 #include "importance/gain.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pullfocus {
 
 Gain::Gain(const Pending& pending, const ColourMetric& metric) : pending_(pending), metric_(metric) {
   for (int index = 0; index < pending.kernels.coc().size(); ++index) {
-    const double area = pending.kernels.area(index);
-    areas_.push_back(static_cast<float>(1 / area));
-    fourth_roots_.push_back(static_cast<float>(1 / std::sqrt(std::sqrt(area))));
+    areas_.push_back(static_cast<float>(1 / pending.kernels.area(index)));
   }
 }
 
@@ -66,7 +63,6 @@ std::uint64_t Gain::row(int x, int y, int n, float* out) const noexcept {
     for (; i < kTileWidth && x + i < column + kBlockWidth; ++i) row.of_block[i] = of_block;
   }
   row.areas = areas_.data();
-  row.fourth_roots = fourth_roots_.data();
   return gains(row, n, out);
 }
 

@@ -27,7 +27,7 @@ class Gain {
 
   const Pending& pending_;
   const ColourMetric& metric_;
-  std::vector<float> areas_, fourth_roots_;  // 1 / A and 1 / A^(1/4) of a kernel's area A, by |index|
+  std::vector<float> areas_;  // 1 / A of a kernel's area A, by |index|
 };
 
 }  // namespace pullfocus

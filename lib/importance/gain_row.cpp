@@ -101,15 +101,14 @@ std::uint64_t Gains(const GainRow& row, int n, float* out) {
     const auto now_at = hn::IfThenElseZero(hn::Gt(is, held_out), hn::Abs(is)),
                then_at = hn::IfThenElseZero(hn::Gt(was, held_out), hn::Abs(was));
     const auto area_now = hn::GatherIndex(d, row.areas, now_at), area_then = hn::GatherIndex(d, row.areas, then_at);
-    const auto of_colour = hn::Mul(
-        changed, Larger(hn::GatherIndex(d, row.fourth_roots, now_at), hn::GatherIndex(d, row.fourth_roots, then_at)));
+    const auto of_smaller = Larger(area_now, area_then);  // 1 / A
+    const auto of_colour = hn::Mul(changed, hn::Sqrt(hn::Sqrt(of_smaller)));
     const auto of_kernel =
         hn::Sub(hn::Add(hn::Mul(aa, area_now), hn::Mul(bb, area_then)),
                 hn::Mul(hn::Add(ab, ab), hn::IfThenElse(hn::Lt(area_then, area_now), area_then, area_now)));
     const auto same_kernel = hn::RebindMask(d, hn::Eq(was, is));
     const auto only_kernel = hn::Not(hn::Or(same_kernel, hn::Gt(changed, zero)));
-    const auto as_block =
-        hn::And(only_kernel, hn::Le(hn::Mul(Larger(area_now, area_then), hn::Set(d, kLeastArea)), hn::Set(d, 1.f)));
+    const auto as_block = hn::And(only_kernel, hn::Le(hn::Mul(of_smaller, hn::Set(d, kLeastArea)), hn::Set(d, 1.f)));
     const auto position = hn::Add(hn::Set(du, row.first), hn::Iota(du, static_cast<std::uint32_t>(i)));
     const auto fraction =
         hn::Mul(hn::Set(d, 0x1p-24f), hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<8>(Scrambled(du, position)))));

@@ -23,7 +23,6 @@ struct GainRow {
   std::int16_t was[kTileWidth];             // and of then
   float of_block[kTileWidth];               // random numbers of [0, 1): each pixel's block's
   const float* areas;                       // 1 / A by |index|
-  const float* fourth_roots;                // 1 / A^(1/4)
   std::uint32_t first;                      // position of the first pixel; that of the next one is one more
 };
 
