@@ -242,21 +242,32 @@ void IncrementalFilter::resolve_dirty() {
 
 void IncrementalFilter::resolve_rows_of_sums() {
   std::vector<std::int64_t> resolved(static_cast<std::size_t>(core_.window.height()));
-  tbb::parallel_for(0, core_.window.height(), [&](int y) {
-    const Accumulator* layers[kMostLayers];
-    const auto count = static_cast<std::size_t>(sums_.layers());
-    dirty_.drain_row(y, [&](int x0, int x1) {
-      for (int x = x0; x < x1;) {
-        const int end = std::min((x / kTileWidth + 1) * kTileWidth, x1);
-        for (std::size_t l = 0; l < count; ++l) layers[l] = sums_.at(static_cast<int>(l), x, y);
-        resolve_layers({layers, count}, lanes(), x, end, y, state_.colour, result_,
-                       static_cast<std::size_t>(core_.layers.near()), core_.behind());
-        x = end;
-      }
-      resolved[static_cast<std::size_t>(y)] += x1 - x0;
-    });
-  });
+  tbb::parallel_for(0, core_.window.height(),
+                    [&](int y) { resolved[static_cast<std::size_t>(y)] = resolve_dirty_row(y, true); });
   stats_.resolved += std::accumulate(resolved.begin(), resolved.end(), std::int64_t{0});
+}
+
+std::int64_t IncrementalFilter::resolve_dirty_row(int y, bool is_committed) {
+  const Accumulator* layers[kMostLayers];
+  const auto count = static_cast<std::size_t>(sums_.layers());
+  std::int64_t resolved = 0;
+  std::vector<ColumnSpan> without_weight;
+  dirty_.drain_row(y, [&](int x0, int x1) {
+    for (int x = x0; x < x1;) {
+      const int end = std::min((x / kTileWidth + 1) * kTileWidth, x1);
+      for (std::size_t l = 0; l < count; ++l) layers[l] = sums_.at(static_cast<int>(l), x, y);
+      const bool all = resolve_layers({layers, count}, lanes(), x, end, y, state_.colour, result_,
+                                      static_cast<std::size_t>(core_.layers.near()), core_.behind());
+      if (all || is_committed) {
+        resolved += end - x;
+      } else {
+        without_weight.push_back({x, end});
+      }
+      x = end;
+    }
+  });
+  for (const ColumnSpan& span : without_weight) dirty_.mark(y, span.x0, span.x1);
+  return resolved;
 }
 
 std::unique_ptr<Filter> make_incremental_filter(const Window& state_window, const FilterOptions& options,

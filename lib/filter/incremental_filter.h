@@ -75,8 +75,10 @@ class IncrementalFilter final : public Filter {
   std::vector<TileWork> take_over(Call& call, const std::vector<TileWork>& selected);
   std::vector<TileWork> take_over_in_slices(Call& call, const std::vector<TileWork>& selected, const EdgeCount& edges);
   bool rebuild_is_cheaper(const EdgeCount& edges, const std::vector<TileWork>& selected) const noexcept;
-  void add(const std::vector<LayerWork>& work, const Sources& sources);
-  void update(const std::vector<TileWork>& selected, const EdgeCount& edges);
+  // `resolve`: what it reaches at once, while the sums are in the caches; before the changes are committed.
+  void add(const std::vector<LayerWork>& work, const Sources& sources, bool resolve);
+  // `is_last`: no other one follows in the same call.
+  void update(const std::vector<TileWork>& selected, const EdgeCount& edges, bool is_last);
   void take_committed(const Call& call, const std::vector<TileWork>& selected, const EdgeCount& edges);
   // Of the state with `selected` committed; `is_cheaper`: than an update, were the sums at hand.
   void rebuild(const std::vector<TileWork>& selected, bool is_cheaper, const Call& call);
@@ -85,6 +87,9 @@ class IncrementalFilter final : public Filter {
   void make_room(const LayerWork& work);
   void resolve_dirty();
   void resolve_rows_of_sums();
+  // Returns how many pixels were resolved. Before the changes are committed, pixels without weight stay dirty: they
+  // show committed colours.
+  std::int64_t resolve_dirty_row(int y, bool is_committed);
   void no_longer_uncommitted(const std::vector<TileWork>& tiles);
   void show_uncommitted();
 

@@ -1,5 +1,6 @@
 // How the incremental filter takes a selection over: at once, in slices, or by a rebuild.
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "filter/call.h"
@@ -34,7 +35,7 @@ std::vector<TileWork> IncrementalFilter::take_over(Call& call, const std::vector
     }
     rebuild(selected, cheaper, call);
   } else {
-    update(selected, edges);
+    update(selected, edges, true);
   }
   return selected;
 }
@@ -69,7 +70,7 @@ std::vector<TileWork> IncrementalFilter::take_over_in_slices(Call& call, const s
       work = pace_.work_in(std::min(left, slice_ms));
     }
     const SliceQueue::Slice slice = queue.next(most, work);
-    update(slice.tiles, slice.edges);
+    update(slice.tiles, slice.edges, false);
     done.insert(done.end(), slice.tiles.begin(), slice.tiles.end());
     if (!call.timed()) continue;
     const double after = call.elapsed_ms();
@@ -105,7 +106,8 @@ bool IncrementalFilter::rebuild_is_cheaper(const EdgeCount& edges,
   return updated > 0 && update > kEdge * (edges_after + hidden_after) + kPixel * pixels;
 }
 
-void IncrementalFilter::add(const std::vector<LayerWork>& work, const Sources& sources) {
+void IncrementalFilter::add(const std::vector<LayerWork>& work, const Sources& sources, bool resolve) {
+  std::atomic<std::int64_t> resolved{0};
   for (const LayerWork& layer : work) make_room(layer);
   core_.scatter.run(work, sources, lanes(), core_.threads, [&](int y, std::span<const LayerRow> rows) {
     for (const LayerRow& row : rows) {
@@ -114,7 +116,9 @@ void IncrementalFilter::add(const std::vector<LayerWork>& work, const Sources& s
         dirty_.mark(y, span.x0, span.x1);
       }
     }
+    if (resolve) resolved += resolve_dirty_row(y, false);
   });
+  stats_.resolved += resolved;
 }
 
 // For all that the layer's tiles may reach; folded light stays within that.
@@ -141,11 +145,13 @@ void IncrementalFilter::mark_held_out(const std::vector<TileWork>& tiles) {
   }
 }
 
-void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges) {
+void IncrementalFilter::update(const std::vector<TileWork>& selected, const EdgeCount& edges, bool is_last) {
   keep_rule_.updated(!sums_kept_);
   if (!sums_kept_) scatter_state(true, false);
   const Sources change{&state_, frame_, pending_.data(), &core_.sanitiser, core_.hidden()};
-  add(by_layer(selected, core_.layers, state_, pending_.data()), change);
+  // Nothing else must reach the picture after it.
+  const bool resolve = is_last && !core_.occlusion && uncommitted_ == 0 && !state_.may_hold_out;
+  add(by_layer(selected, core_.layers, state_, pending_.data()), change, resolve);
   if (core_.occlusion) {
     correct_flips(selected, change, depth_kind_, *core_.kernels, lanes(), [&](int y, int x, const Accumulator* values) {
       sums_.add(0, y, {x, x + 1}, values);
@@ -159,7 +165,7 @@ void IncrementalFilter::update(const std::vector<TileWork>& selected, const Edge
     Sources hidden{&state_};
     hidden.occlusion = core_.hidden();
     hidden.is_plain = false;
-    add(by_layer(core_.occlusion->needing(selected), core_.layers, state_, nullptr), hidden);
+    add(by_layer(core_.occlusion->needing(selected), core_.layers, state_, nullptr), hidden, false);
   }
   mark_held_out(selected);
   edges_ += edges.committed;

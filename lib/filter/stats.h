@@ -28,7 +28,7 @@ struct Stats {
   std::int64_t clamped_radiance = 0;  // pixels beyond the largest radiance
   std::int64_t clamped_coc = 0;       // pixels beyond the largest CoC
 
-  double detect_ms = 0, scatter_ms = 0, resolve_ms = 0;  // rebuilds resolve within scatter_ms
+  double detect_ms = 0, scatter_ms = 0, resolve_ms = 0;  // what is resolved on the way is within scatter_ms
   double filter_ms = 0;                                  // the whole call
   double overshoot_ms = 0;                               // by which the call missed the end of its time budget
 };

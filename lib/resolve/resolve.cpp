@@ -25,13 +25,14 @@ bool has_weight(const Accumulator* values, int lanes, int n) noexcept {
 
 }  // namespace
 
-void resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, const ColourImage& own,
+bool resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, const ColourImage& own,
                   ColourImage& out) noexcept {
   const int x = out.window().x0 + x0, row = out.window().y0 + y;
-  if (divide(values, lanes, x1 - x0, out.type(), out.pixel(x, row))) return;
+  if (divide(values, lanes, x1 - x0, out.type(), out.pixel(x, row))) return true;
   for (int i = 0; i < x1 - x0; ++i, values += lanes) {
     if (values[kWeightLane] == 0) take_own(own, x + i, row, out);
   }
+  return false;
 }
 
 namespace {
@@ -46,14 +47,15 @@ bool covers(const Accumulator* values, int lanes, int n) noexcept {
 
 }  // namespace
 
-void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
+bool resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
                     const ColourImage& own, ColourImage& out, std::size_t near, Backdrop* backdrop) {
+  bool all = true;
   constexpr int chunk_width = Backdrop::kChunk;  // pixels that are looked at together
   // Chunks that show one layer alone are resolved together, in long runs.
   const Accumulator* alone = nullptr;
   int alone_from = x0, alone_to = x0;
   const auto flush = [&] {
-    if (alone != nullptr) resolve_span(alone, lanes, alone_from, alone_to, y, own, out);
+    if (alone != nullptr) all &= resolve_span(alone, lanes, alone_from, alone_to, y, own, out);
     alone = nullptr;
   };
   for (int x = x0; x < x1; x += chunk_width) {
@@ -81,10 +83,11 @@ void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x
     flush();
     const int column = out.window().x0 + x, row = out.window().y0 + y;
     Backdrop::Chunk chunk;
-    const bool all = count > 0 && compose({present, count}, in_front, lanes, n, out.type(), out.pixel(column, row),
-                                          looks ? &chunk : nullptr);
+    const bool all_here = count > 0 && compose({present, count}, in_front, lanes, n, out.type(), out.pixel(column, row),
+                                               looks ? &chunk : nullptr);
     if (looks) backdrop->take(x, y, chunk);
-    if (all) continue;
+    if (all_here) continue;
+    all = false;
     for (int i = 0; i < n; ++i) {
       Accumulator any = 0;
       for (std::size_t l = 0; l < count; ++l) any |= present[l][i * lanes + kWeightLane];
@@ -92,6 +95,7 @@ void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x
     }
   }
   flush();
+  return all;
 }
 
 void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out, int near,

@@ -14,8 +14,8 @@ namespace pullfocus {
 // Divides numerators by weights for pixels [x0, x1) of row y (from the window's corner) and stores them in
 // `out`. `values` points at column x0, `lanes` accumulators a pixel; without an alpha lane, alpha is 1. A
 // pixel of weight zero takes the colour of `own` (same window), rounded to out's type. half results are
-// clamped to +-65504: a finite input never becomes infinite.
-void resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, const ColourImage& own,
+// clamped to +-65504: a finite input never becomes infinite. Returns whether every pixel had weight.
+bool resolve_span(const Accumulator* values, int lanes, int x0, int x1, int y, const ColourImage& own,
                   ColourImage& out) noexcept;
 
 // Weight that covers a pixel where several layers meet: 15/16 of kWeightUnit. Where its CoC changes from pixel to
@@ -37,7 +37,7 @@ inline constexpr std::int64_t kCoveringWeight = kWeightUnit / 16 * 15;
 // The first `near` of the layers lie in front of focus. Where there is a `backdrop`, it is told of every pixel what is
 // seen behind them, in chunks from x0, a multiple of Backdrop::kChunk, on; its fill() is then to be called.
 inline constexpr std::size_t kMostLayers = 16;
-void resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
+bool resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x0, int x1, int y,
                     const ColourImage& own, ColourImage& out, std::size_t near = 0, Backdrop* backdrop = nullptr);
 
 // The whole row from rows as Scatter hands them over, those of layers below `near` in front of focus. Where no layer

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "plain_frames.h"
 #include "reference.h"
+#include "shapes.h"
 
 namespace pullfocus {
 namespace {
@@ -49,6 +53,32 @@ TEST(Resolve, OfWeightZeroIsThePixelsOwnColour) {
       EXPECT_EQ(out.get(-1, 6, 1), -2.f);
       EXPECT_EQ(out.get(-1, 6, 2), 3.f);
       EXPECT_EQ(out.get(-1, 6, 3), 0.5f);
+    }
+  }
+}
+
+// A ring of light around each blurred pixel, and none on itself; all others are sharp.
+TEST(Resolve, OfWeightZeroIsTheColourThatAnUpdateHasJustCommitted) {
+  AperturePicture ring{9, 9, std::vector<float>(81, 1)};
+  for (std::size_t y = 1; y < 8; ++y) std::fill_n(&ring.luminance[9 * y + 1], 7, 0.f);
+  FilterOptions options = test::options_up_to(9);
+  options.kernel.shape = test::of_kind(KernelShape::Kind::image);
+  options.kernel.shape.picture = std::make_shared<AperturePicture>(ring);
+  const Window wide{0, 0, 200, 40};
+  const Window blurred{31, 8, 34, 11};
+  for (const auto kind : {VisibilityOptions::Kind::none, VisibilityOptions::Kind::layers}) {
+    options.visibility.kind = kind;
+    Frame frame = test::flat_frame(wide, SampleType::float32, {1, 2, 3}, 0);
+    test::for_each_in(blurred, [&](int x, int y) { frame.depth.at(x, y) = 9; });
+    const auto incremental = make_incremental_filter(wide, options), linear = make_linear_filter(wide, options);
+    incremental->filter(frame, test::coc_as_depth);
+    for (const float red : {4.f, 0.5f}) {
+      test::for_each_in(blurred, [&](int x, int y) { frame.colour.set(x, y, 0, red); });
+      const Stats& stats = incremental->filter(frame, test::coc_as_depth);
+      linear->filter(frame, test::coc_as_depth);
+      ASSERT_EQ(stats.mode, ScatterMode::incremental);
+      EXPECT_EQ(incremental->result().get(32, 9, 0), red) << "shows itself";
+      EXPECT_EQ(test::difference(incremental->result(), linear->result()), "");
     }
   }
 }
