@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "simd/prefetch.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "importance/segment.cpp"
 #include <hwy/foreach_target.h>
@@ -139,25 +141,25 @@ HWY_INLINE std::uint64_t DifferingPixels(const Pixel<SampleType::float32>* a, co
   return bits;
 }
 
-// The next segments of a row are read while this one is computed. Into the second-level cache, since the first has too
-// few lines to wait for, and every other line, since processors fetch lines by twos. Reaches past the end of an image,
-// which does no harm.
-HWY_INLINE void Prefetch(const void* address, std::size_t bytes) {
-  for (std::size_t b = 0; b < bytes; b += 128) __builtin_prefetch(static_cast<const std::uint8_t*>(address) + b, 0, 2);
+// The next segments of a row are read while this one is computed; every other line, since these are long streams, of
+// which processors fetch lines by twos.
+template <typename Value>
+HWY_INLINE void Prefetch(const Value* segment) {
+  prefetch(segment + 2 * kTileWidth, kTileWidth * sizeof *segment, 2 * kCacheLine);
 }
 
 template <SampleType type>
 HWY_INLINE SegmentFindings Compare(const DepthToIndex& to_index, const SegmentPair<type>& pair, std::int16_t* index,
                                    SegmentDifference& difference) {
-  Prefetch(pair.colours + 2 * kTileWidth, kTileWidth * sizeof *pair.colours);
-  Prefetch(pair.old_colours + 2 * kTileWidth, kTileWidth * sizeof *pair.old_colours);
-  Prefetch(pair.depth + 2 * kTileWidth, kTileWidth * sizeof *pair.depth);
+  Prefetch(pair.colours);
+  Prefetch(pair.old_colours);
+  Prefetch(pair.depth);
   SegmentFindings findings;
   if (pair.known_depth != nullptr) {
-    Prefetch(pair.known_depth + 2 * kTileWidth, kTileWidth * sizeof *pair.known_depth);
+    Prefetch(pair.known_depth);
     difference.known = Equal(pair.depth, pair.known_depth, pair.n * static_cast<int>(sizeof *pair.depth));
   } else {
-    Prefetch(pair.old_index + 2 * kTileWidth, kTileWidth * sizeof *pair.old_index);
+    Prefetch(pair.old_index);
   }
   if (!difference.known) {
     findings = SignedIndices(to_index, pair.depth, pair.n, index);

@@ -55,6 +55,13 @@ void image_of(const SourceRow<lanes>& row, RowKind kind, int k, int width, int r
   });
 }
 
+// What write_lines() will read of a tile.
+void fetch_lines(const TileWork& work, const TileGrid& grid, int first, const Sources& sources) noexcept {
+  for (int i = first; i < first + kBlockRows; ++i) {
+    if (work.mask.rows[i] != 0) fetch_ahead(sources, grid.x(work.tile), grid.y(work.tile) + i);
+  }
+}
+
 }  // namespace
 
 // Kernels that are their own mirror images may fall on the pads, which are folded back in. For others this would turn
@@ -167,8 +174,8 @@ void Scatter::fill(Band& band, std::span<const TileWork* const> tiles, const Sou
   }
 
   for (const BandImage& image : images) {
-    for (const TileWork* const tile : tiles) {
-      const TileWork& work = *tile;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+      const TileWork& work = *tiles[t];
       const int x = grid_.x(work.tile), y = grid_.y(work.tile);
       const TileMask::Bounds part = work.mask.bounds();
       const int rx = reach_x(work.max_index), ry = reach_y(work.max_index);
@@ -183,6 +190,7 @@ void Scatter::fill(Band& band, std::span<const TileWork* const> tiles, const Sou
       }
       if (!sources.is_plain) continue;
       for (int i = 0; i < kTileHeight; i += kBlockRows) {
+        if (t + 1 < tiles.size()) fetch_lines(*tiles[t + 1], grid_, i, sources);
         write_lines<lanes>(band, work, i, sources, image, layout.fold, scratch);
       }
     }

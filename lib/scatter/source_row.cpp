@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "image/sane.h"
+#include "simd/prefetch.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scatter/source_row.cpp"
@@ -27,13 +28,34 @@ HWY_INLINE hn::Vec<D> LoadValues(D d, const Pixel<SampleType::float32>& pixel, i
   return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), reinterpret_cast<const float*>(pixel.rgba) + c));
 }
 
+// As many pixels as fill whole vectors to opaque lanes, times `sign`. Returns how many.
+template <SampleType type>
+HWY_INLINE int WholeVectors(const Pixel<type>* pixels, int n, double sign, double* HWY_RESTRICT out) {
+  const hn::CappedTag<double, 8> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  constexpr int together = static_cast<int>(hn::MaxLanes(d)) / kOpaqueLanes;  // pixels
+  int i = 0;
+  if constexpr (together > 0) {
+    const auto factor = hn::Set(d, sign);
+    const auto lane = hn::And(hn::Iota(du, 0), hn::Set(du, std::uint64_t{kOpaqueLanes - 1}));
+    const auto is_weight = hn::RebindMask(d, hn::Eq(lane, hn::Set(du, std::uint64_t{kWeightLane})));
+    for (; i + together <= n; i += together) {
+      const auto colour = hn::Mul(LoadValues(d, pixels[i], 0), factor);
+      hn::StoreU(hn::IfThenElse(is_weight, factor, colour), d, out + i * kOpaqueLanes);
+    }
+  }
+  return i;
+}
+
 // n pixels to lanes, times `sign`.
 template <int lanes, SampleType type>
 void Lanes(const Pixel<type>* pixels, int n, double sign, double* HWY_RESTRICT out) {
   const hn::CappedTag<double, 4> d;
   constexpr int step = static_cast<int>(hn::MaxLanes(d));
   const auto factor = hn::Set(d, sign);
-  for (int i = 0; i < n; ++i, out += lanes) {
+  int i = 0;
+  if constexpr (lanes == kOpaqueLanes) i = WholeVectors(pixels, n, sign, out);
+  for (out += i * lanes; i < n; ++i, out += lanes) {
     for (int c = 0; c < 4; c += step) hn::StoreU(hn::Mul(LoadValues(d, pixels[i], c), factor), d, out + c);
     if constexpr (lanes == kAlphaLanes) out[kAlphaLane] = out[kWeightLane];
     out[kWeightLane] = sign;
@@ -214,6 +236,17 @@ void collect_typed(const Sources& sources, int x, int y, std::uint64_t mask, Row
 }
 
 }  // namespace
+
+void fetch_ahead(const Sources& sources, int x, int y) noexcept {
+  const Window& w = sources.state->colour.window();
+  const auto offset = static_cast<std::size_t>(y) * static_cast<std::size_t>(w.width()) + static_cast<std::size_t>(x);
+  const auto fetch = [&](const ColourImage& colours, const std::int16_t* indices) {
+    prefetch(colours.pixel(w.x0 + x, w.y0 + y), kTileWidth * colours.pixel_bytes(), kCacheLine);
+    prefetch(indices + offset, kTileWidth * sizeof *indices, kCacheLine);
+  };
+  fetch(sources.state->colour, sources.state->index.data());
+  if (sources.frame != nullptr) fetch(sources.frame->colour, sources.pending);
+}
 
 template <int lanes>
 void collect(const Sources& sources, int x, int y, std::uint64_t mask, RowSources<lanes>& row) noexcept {

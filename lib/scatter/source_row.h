@@ -75,6 +75,10 @@ void colour_lanes(const Pixel<type>& pixel, double* out) noexcept {
   if constexpr (lanes == kAlphaLanes) out[kAlphaLane] = static_cast<double>(sample_value(pixel.rgba[3]));
 }
 
+// Has what collect() will read of the tile row that begins at (x, y) fetched: pieces of rows are too short for
+// processors to foresee.
+void fetch_ahead(const Sources& sources, int x, int y) noexcept;
+
 // Collects the pixels `mask` of the tile row that begins at (x, y), counted from the window's corner.
 template <int lanes>
 void collect(const Sources& sources, int x, int y, std::uint64_t mask, RowSources<lanes>& row) noexcept;

@@ -31,18 +31,26 @@ HWY_INLINE std::uint32_t Like(const std::int16_t* index, std::int16_t like) {
   return all;
 }
 
+// At every value of a row: the bit of the column it belongs to.
+template <int lanes, int width>
+struct ColumnBits {
+  alignas(64) std::uint64_t of[width * lanes] = {};
+  constexpr ColumnBits() {
+    for (int i = 0; i < width * lanes; ++i) of[i] = std::uint64_t{1} << (i / lanes);
+  }
+};
+template <int lanes, int width>
+inline constexpr ColumnBits<lanes, width> kColumnBits;
+
 // Zero where no member is.
 template <int lanes, int width>
 HWY_INLINE const double* Values(const double* values, std::uint32_t members, double* HWY_RESTRICT out) {
   if (members == (1u << width) - 1) return values;
-  std::fill_n(out, width * lanes, 0.0);
-  for (; members != 0; members &= members - 1) {
-    const int at = std::countr_zero(members) * lanes;
-    ForEachPart<lanes>([&](auto d, int i) HWY_ATTR {
-      const hn::Repartition<double, decltype(d)> df;
-      hn::StoreU(hn::LoadU(df, values + at + i), df, out + at + i);
-    });
-  }
+  ForEachPart<width * lanes>([&](auto d, int i) HWY_ATTR {
+    const hn::Repartition<double, decltype(d)> df;
+    const auto is_member = hn::TestBit(hn::Set(d, members), hn::LoadU(d, kColumnBits<lanes, width>.of + i));
+    hn::StoreU(hn::IfThenElseZero(hn::RebindMask(df, is_member), hn::LoadU(df, values + i)), df, out + i);
+  });
   return out;
 }
 

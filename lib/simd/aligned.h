@@ -6,12 +6,14 @@
 
 namespace pullfocus {
 
+inline constexpr std::size_t kCacheLine = 64;  // bytes
+
 // For standard containers whose values are read and written as vectors: fewer of these straddle two cache lines. Goes
 // through operator new, so that sanitizers and valgrind see every allocation.
 template <typename T>
 struct CacheAligned {
   using value_type = T;
-  static constexpr std::align_val_t kLine{64};
+  static constexpr std::align_val_t kLine{kCacheLine};
 
   CacheAligned() = default;
   template <typename U>
