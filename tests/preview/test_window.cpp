@@ -86,9 +86,10 @@ class PreviewWindow : public testing::Test {
 
   void SetUp() override {
     if (!is_there("Xvfb") || !is_there("xdotool")) GTEST_SKIP() << "Xvfb and xdotool are needed";
-    // The server names a display that is free.
+    // The server names a display that is free. It must not reset when its last client leaves, as each xdotool is for a
+    // while: who comes during a reset is turned away.
     const std::string number = folder / "display";
-    screen.emplace("Xvfb -displayfd 3 -screen 0 1400x900x24 +extension GLX -nolisten tcp 3>'" + number + "'",
+    screen.emplace("Xvfb -displayfd 3 -noreset -screen 0 1400x900x24 +extension GLX -nolisten tcp 3>'" + number + "'",
                    folder / "xvfb.log");
     std::string text;
     for (int i = 0; i < 1000 && text.find('\n') == std::string::npos; ++i, pause_ms(10)) text = read(number);
