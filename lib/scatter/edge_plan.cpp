@@ -158,7 +158,11 @@ EdgePlan plan_of_both(const Kernel* added, const Kernel* taken) {
 
 }  // namespace
 
-EdgePlan plan_of(const Kernel& kernel) { return plan_of_both(&kernel, nullptr); }
+EdgePlan plan_of(const Kernel& kernel) {
+  EdgePlan plan = plan_of_both(&kernel, nullptr);
+  plan.pairs = pairs_of(kernel);
+  return plan;
+}
 
 std::vector<EdgePlan> plans_of_move(const Kernel& from, const Kernel& to) {
   std::vector<EdgePlan> plans;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "scatter/edge_pairs.h"
 #include "scatter/kernel.h"
 
 namespace pullfocus {
@@ -40,6 +41,7 @@ struct EdgePlan {
   std::vector<RowPair> sums;         // a + b
   bool has_zeros = false;            // one more row, of zeros: for columns of chains without an edge
   ChainList chains[2][kMaxChain];    // by falling/rising and length - 1
+  EdgePairs pairs;  // the same for single sources; empty in plans of moves, and where there are too many kinds
 
   std::size_t value_rows() const noexcept {
     return weights.size() + differences.size() + sums.size() + (has_zeros ? 1 : 0);

@@ -65,24 +65,65 @@ HWY_INLINE void WriteLists(const EdgePlan& plan, const Accumulator* HWY_RESTRICT
   }
 }
 
+// Where the group's kernel rows lie: in the band as they do in the kernel, since it is the source that is mirrored.
+// Empty where none does.
+HWY_INLINE Place PlaceOf(const Group& group, int radius_y, int lanes, const BandImage& image, Band& band) {
+  const int y = group.y;
+  const int from = std::max(y - radius_y, image.y0), to = std::min(y + radius_y + 1, image.y1);
+  if (from >= to) return {nullptr, 0, 0, 0};
+  const bool up = image.direction > 0;
+  return {band.row(image.band_row(up ? from : to - 1)) + static_cast<std::ptrdiff_t>(group.x) * lanes, band.stride(),
+          up ? from - y : y + 1 - to, up ? to - y : y + 1 - from};
+}
+
 template <int lanes, int width, RowKind kind>
 void WriteGroup(const EdgePlan& plan, const Group& group, const BandImage& image, Band& band) {
-  const int y = group.y;
-  const int from = std::max(y - plan.radius_y, image.y0), to = std::min(y + plan.radius_y + 1, image.y1);
-  if (from >= to) return;
+  const Place place = PlaceOf(group, plan.radius_y, lanes, image, band);
+  if (place.first_row == nullptr) return;
   alignas(64) Accumulator memory[kPad + kMostValueRows * kStride<lanes, width>];
   Accumulator* const values = memory + kPad;
   ValueRows<lanes, width, kind, kStride<lanes, width>, kPad>(plan, group.plus, group.minus, group.members, values);
-  // Kernel rows lie in the band as they do in the kernel: it is the source that is mirrored.
-  const bool up = image.direction > 0;
-  const Place place{band.row(image.band_row(up ? from : to - 1)) + static_cast<std::ptrdiff_t>(group.x) * lanes,
-                    band.stride(), up ? from - y : y + 1 - to, up ? to - y : y + 1 - from};
   WriteLists<lanes, width>(plan, values, place);
 }
 
 template <int lanes, RowKind kind>
+void WriteSingle(const EdgePlan& plan, const Group& group, const BandImage& image, Band& band) {
+  const Place place = PlaceOf(group, plan.radius_y, lanes, image, band);
+  if (place.first_row == nullptr) return;
+  constexpr int n = 2 * lanes;
+  alignas(64) Accumulator of_level[EdgePairs::kMostLevels * lanes], of_kind[EdgePairs::kMostKinds * n];
+  Accumulator* level = of_level;
+  ForEachPart<lanes>([&](auto d, int i) HWY_ATTR { hn::StoreU(hn::Zero(d), d, level + i); });
+  for (const double weight : plan.weights) {
+    level += lanes;
+    ForEachPart<lanes>([&](auto d, int i) HWY_ATTR {
+      const hn::Repartition<double, decltype(d)> df;
+      const auto value = Contribution<kind == RowKind::recoloured>(df, group.plus + i, group.minus + i, weight);
+      hn::StoreU(value, d, level + i);
+    });
+  }
+  Accumulator* values = of_kind;
+  for (const LevelPair& pair : plan.pairs.kinds) {
+    ForEachPart<lanes>([&](auto d, int i) HWY_ATTR {
+      const auto first = hn::LoadU(d, of_level + pair.first * lanes + i);
+      hn::StoreU(hn::Sub(first, hn::LoadU(d, of_level + pair.before * lanes + i)), d, values + i);
+      hn::StoreU(hn::Sub(hn::LoadU(d, of_level + pair.second * lanes + i), first), d, values + lanes + i);
+    });
+    values += n;
+  }
+  for (const EdgePair& pair : plan.pairs.rows(place.dy0, place.dy1)) {
+    Accumulator* const out = place.first_row + (pair.dy - place.dy0) * place.row_step + pair.dx * lanes;
+    const Accumulator* const in = of_kind + pair.kind * n;
+    ForEachPart<n>([&](auto d, int i)
+                       HWY_ATTR { hn::StoreU(hn::Add(hn::LoadU(d, out + i), hn::LoadU(d, in + i)), d, out + i); });
+  }
+}
+
+template <int lanes, RowKind kind>
 HWY_INLINE void WriteGroupOf(int width, const EdgePlan& plan, const Group& group, const BandImage& image, Band& band) {
-  if (width == 1) {
+  if (width == 1 && kind != RowKind::moved && !plan.pairs.empty()) {
+    WriteSingle<lanes, kind>(plan, group, image, band);
+  } else if (width == 1) {
     WriteGroup<lanes, 1, kind>(plan, group, image, band);
   } else if (width == 2) {
     WriteGroup<lanes, 2, kind>(plan, group, image, band);

@@ -96,6 +96,30 @@ TEST_P(EdgePlans, GiveWhatTheirKernelGives) {
   }
 }
 
+TEST_P(EdgePlans, OfSingleSourcesGiveWhatTheirKernelGives) {
+  const KernelTable table(options_of(GetParam()));
+  for (int index = 0; index < table.coc().size(); ++index) {
+    const Kernel& kernel = table.kernel(index);
+    const EdgePairs pairs = pairs_of(kernel);
+    ASSERT_FALSE(pairs.empty()) << index;
+    for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
+      std::vector<std::int64_t> row(static_cast<std::size_t>(2 * kernel.radius_x + 4));
+      for (const EdgePair& pair : pairs.rows(dy, dy + 1)) {
+        ASSERT_EQ(pair.dy, dy);
+        const LevelPair& kind = pairs.kinds[pair.kind];
+        const auto at = static_cast<std::size_t>(pair.dx + kernel.radius_x);
+        row[at] += kernel.levels[kind.first] - kernel.levels[kind.before];
+        row[at + 1] += kernel.levels[kind.second] - kernel.levels[kind.first];
+      }
+      std::int64_t sum = 0;
+      for (int dx = -kernel.radius_x; dx <= kernel.radius_x + 1; ++dx) {
+        sum += row[static_cast<std::size_t>(dx + kernel.radius_x)];
+        ASSERT_EQ(sum, kernel.weight(dx, dy)) << index << ": " << dx << ", " << dy;
+      }
+    }
+  }
+}
+
 TEST_P(EdgePlans, OfMovesGiveTheNewKernelLessTheOldOne) {
   const KernelTable table(options_of(GetParam()));
   const int last = table.coc().size() - 1;
