@@ -7,7 +7,6 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 
 #include "scatter/edge_plan.h"
 #include "scatter/lanes-inl.h"
