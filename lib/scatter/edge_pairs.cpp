@@ -7,7 +7,10 @@ namespace pullfocus {
 EdgePairs pairs_of(const Kernel& kernel) {
   EdgePairs plan;
   plan.radius_y = kernel.radius_y;
-  plan.row_begin.push_back(0);
+  const auto end_row = [&plan] {
+    for (auto& list : plan.of_columns) list.row_begin.push_back(static_cast<std::uint32_t>(list.pairs.size()));
+  };
+  end_row();
   for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
     const std::span<const KernelEdge> edges = kernel.row(dy);
     std::uint8_t level = 0;
@@ -15,15 +18,16 @@ EdgePairs pairs_of(const Kernel& kernel) {
       const KernelEdge& edge = edges[i++];
       LevelPair kind{level, kernel.level_behind(edge), 0};
       kind.second = kind.first;
-      if (i < edges.size() && edges[i].dx == edge.dx + 1) kind.second = kernel.level_behind(edges[i++]);
+      const bool is_pair = i < edges.size() && edges[i].dx == edge.dx + 1;
+      if (is_pair) kind.second = kernel.level_behind(edges[i++]);
       level = kind.second;
       const auto at =
           static_cast<std::size_t>(std::find(plan.kinds.begin(), plan.kinds.end(), kind) - plan.kinds.begin());
       if (at == EdgePairs::kMostKinds) return {};
       if (at == plan.kinds.size()) plan.kinds.push_back(kind);
-      plan.pairs.push_back({edge.dx, static_cast<std::int16_t>(dy), static_cast<std::uint8_t>(at)});
+      plan.of_columns[is_pair].pairs.push_back({edge.dx, static_cast<std::int16_t>(dy), static_cast<std::uint8_t>(at)});
     }
-    plan.row_begin.push_back(static_cast<std::uint32_t>(plan.pairs.size()));
+    end_row();
   }
   return plan;
 }

@@ -18,7 +18,7 @@ struct LevelPair {
 };
 
 // The edges at columns dx and dx + 1 of row dy: values[first] - values[before] and values[second] - values[first] of
-// the kind, values being the source's at the kernel's levels.
+// the kind, values being the source's at the kernel's levels. Of a single edge, second == first.
 struct EdgePair {
   std::int16_t dx, dy;
   std::uint8_t kind;
@@ -28,16 +28,22 @@ struct EdgePairs {
   static constexpr std::size_t kMostKinds = 256;
   static constexpr std::size_t kMostLevels = 256;
 
+  // Row by row; no two of a row share a column. `row_begin` is of row dy at dy + radius_y.
+  struct List {
+    std::vector<EdgePair> pairs;
+    std::vector<std::uint32_t> row_begin;
+  };
+
   int radius_y = 0;
   std::vector<LevelPair> kinds;
-  std::vector<EdgePair> pairs;           // row by row; no two of a row share a column
-  std::vector<std::uint32_t> row_begin;  // of row dy, at dy + radius_y
+  List of_columns[2];  // of single edges, of pairs
 
-  bool empty() const noexcept { return pairs.empty(); }
-  // Pairs of rows [dy0, dy1), -radius_y <= dy0 <= dy1 <= radius_y + 1.
-  std::span<const EdgePair> rows(int dy0, int dy1) const noexcept {
-    const std::uint32_t begin = row_begin[static_cast<std::size_t>(dy0 + radius_y)];
-    return {pairs.data() + begin, row_begin[static_cast<std::size_t>(dy1 + radius_y)] - begin};
+  bool empty() const noexcept { return kinds.empty(); }
+  // Those with `columns` edges of rows [dy0, dy1), -radius_y <= dy0 <= dy1 <= radius_y + 1.
+  std::span<const EdgePair> rows(int columns, int dy0, int dy1) const noexcept {
+    const List& list = of_columns[columns - 1];
+    const std::uint32_t begin = list.row_begin[static_cast<std::size_t>(dy0 + radius_y)];
+    return {list.pairs.data() + begin, list.row_begin[static_cast<std::size_t>(dy1 + radius_y)] - begin};
   }
 };
 

@@ -86,6 +86,16 @@ void WriteGroup(const EdgePlan& plan, const Group& group, const BandImage& image
   WriteLists<lanes, width>(plan, values, place);
 }
 
+template <int lanes, int columns>
+HWY_INLINE void WritePairs(const EdgePairs& pairs, const Accumulator* HWY_RESTRICT of_kind, const Place& place) {
+  for (const EdgePair& pair : pairs.rows(columns, place.dy0, place.dy1)) {
+    Accumulator* const out = place.first_row + (pair.dy - place.dy0) * place.row_step + pair.dx * lanes;
+    const Accumulator* const in = of_kind + pair.kind * 2 * lanes;
+    ForEachPart<columns * lanes>(
+        [&](auto d, int i) HWY_ATTR { hn::StoreU(hn::Add(hn::LoadU(d, out + i), hn::LoadU(d, in + i)), d, out + i); });
+  }
+}
+
 template <int lanes, RowKind kind>
 void WriteSingle(const EdgePlan& plan, const Group& group, const BandImage& image, Band& band) {
   const Place place = PlaceOf(group, plan.radius_y, lanes, image, band);
@@ -111,12 +121,8 @@ void WriteSingle(const EdgePlan& plan, const Group& group, const BandImage& imag
     });
     values += n;
   }
-  for (const EdgePair& pair : plan.pairs.rows(place.dy0, place.dy1)) {
-    Accumulator* const out = place.first_row + (pair.dy - place.dy0) * place.row_step + pair.dx * lanes;
-    const Accumulator* const in = of_kind + pair.kind * n;
-    ForEachPart<n>([&](auto d, int i)
-                       HWY_ATTR { hn::StoreU(hn::Add(hn::LoadU(d, out + i), hn::LoadU(d, in + i)), d, out + i); });
-  }
+  WritePairs<lanes, 1>(plan.pairs, of_kind, place);
+  WritePairs<lanes, 2>(plan.pairs, of_kind, place);
 }
 
 template <int lanes, RowKind kind>

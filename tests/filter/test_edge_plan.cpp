@@ -104,12 +104,15 @@ TEST_P(EdgePlans, OfSingleSourcesGiveWhatTheirKernelGives) {
     ASSERT_FALSE(pairs.empty()) << index;
     for (int dy = -kernel.radius_y; dy <= kernel.radius_y; ++dy) {
       std::vector<std::int64_t> row(static_cast<std::size_t>(2 * kernel.radius_x + 4));
-      for (const EdgePair& pair : pairs.rows(dy, dy + 1)) {
-        ASSERT_EQ(pair.dy, dy);
-        const LevelPair& kind = pairs.kinds[pair.kind];
-        const auto at = static_cast<std::size_t>(pair.dx + kernel.radius_x);
-        row[at] += kernel.levels[kind.first] - kernel.levels[kind.before];
-        row[at + 1] += kernel.levels[kind.second] - kernel.levels[kind.first];
+      for (const int columns : {1, 2}) {
+        for (const EdgePair& pair : pairs.rows(columns, dy, dy + 1)) {
+          ASSERT_EQ(pair.dy, dy);
+          const LevelPair& kind = pairs.kinds[pair.kind];
+          const auto at = static_cast<std::size_t>(pair.dx + kernel.radius_x);
+          row[at] += kernel.levels[kind.first] - kernel.levels[kind.before];
+          if (columns == 1) ASSERT_EQ(kind.second, kind.first);
+          row[at + 1] += kernel.levels[kind.second] - kernel.levels[kind.first];
+        }
       }
       std::int64_t sum = 0;
       for (int dx = -kernel.radius_x; dx <= kernel.radius_x + 1; ++dx) {
