@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "scatter/common_terms.h"
+
 namespace pullfocus {
 
 namespace {
@@ -31,6 +33,8 @@ class BlockPlanner {
       for (std::size_t i = 0; i < stretches_.size();) i = add_chain(i, dy);
       if (plan_.value_rows() > BlockPlan::kMostRows) return {};
     }
+    plan_.wide = share_terms(chains_);
+    for (const PlannedChain& chain : chains_) list(chain);
     plan_.cost = cost();
     if (plan_.cost >= BlockPlan::kAllRows) return {};
     return std::move(plan_);
@@ -39,6 +43,7 @@ class BlockPlanner {
  private:
   const EdgePlan& edges_;
   BlockPlan plan_;
+  std::vector<PlannedChain> chains_;
   std::vector<Stretch> stretches_;     // of one row of the picture
   std::vector<std::uint16_t> sum_at_;  // value row of a stretch of several source rows, 0 if there is none yet
 
@@ -46,7 +51,7 @@ class BlockPlanner {
   // Adding a value to one costs 0.3, and up to 0.7 where there are too many value rows for the innermost cache; making
   // a value row costs 3.
   int cost() const {
-    const auto count = static_cast<double>(plan_.value_rows());
+    const auto count = static_cast<double>(plan_.value_rows() + plan_.wide.size());
     const double term = std::clamp(0.3 + 0.005 * (count - 40), 0.3, 0.7);
     double block = 3 * count, rows = 0;
     for (int spread = 0; spread < BlockPlan::kSpreads; ++spread) {
@@ -112,7 +117,7 @@ class BlockPlanner {
     if (at == 0) {
       Stretch shorter = s;
       --shorter.to;
-      const BlockPlan::RowSum sum{value_row(shorter), base(s.to - 1)};
+      const BlockPlan::RowSum sum{value_row(shorter), base(s.to - 1), 0};
       at = static_cast<std::uint16_t>(plan_.value_rows());
       plan_.sums.push_back(sum);
     }
@@ -124,22 +129,29 @@ class BlockPlanner {
     const int dx = stretches_[i].dx;
     std::size_t end = i;
     while (end < stretches_.size() && stretches_[end].dx <= dx + BlockPlan::kMostSpread) ++end;
-    const int spread = stretches_[end - 1].dx - dx;
-    BlockPlan::Chains& list = plan_.of_spread[(spread + BlockPlan::kSpreadStep - 1) / BlockPlan::kSpreadStep];
-    BlockChain chain{static_cast<std::int16_t>(dx), static_cast<std::int16_t>(dy), 0, 0};
-    for (const bool rising : {true, false}) {
-      for (std::size_t k = i; k < end; ++k) {
-        const Stretch& stretch = stretches_[k];
-        if (stretch.rising != rising) continue;
+    PlannedChain chain{static_cast<std::int16_t>(dx), static_cast<std::int16_t>(dy), stretches_[end - 1].dx - dx, {}};
+    for (std::size_t k = i; k < end; ++k) {
+      const Stretch& stretch = stretches_[k];
+      chain.terms.push_back({value_row(stretch), static_cast<std::uint8_t>(stretch.dx - dx), !stretch.rising});
+    }
+    chains_.push_back(std::move(chain));
+    return end;
+  }
+
+  void list(const PlannedChain& chain) {
+    BlockPlan::Chains& list = plan_.of_spread[(chain.spread + BlockPlan::kSpreadStep - 1) / BlockPlan::kSpreadStep];
+    BlockChain listed{chain.dx, chain.dy, 0, 0};
+    for (const bool taken : {false, true}) {
+      for (const PlannedTerm& planned : chain.terms) {
+        if (planned.taken != taken) continue;
         BlockTerm term{};
-        term.row = value_row(stretch) & 0xfff;
-        term.shift = (stretch.dx - dx) & 0xf;
+        term.row = planned.row & 0xfff;
+        term.shift = planned.shift & 0xf;
         list.terms.push_back(term);
-        ++(rising ? chain.added : chain.taken);
+        ++(taken ? listed.taken : listed.added);
       }
     }
-    list.chains.push_back(chain);
-    return end;
+    list.chains.push_back(listed);
   }
 };
 

@@ -32,10 +32,13 @@ struct BlockPlan {
   static constexpr int kSpreadStep = 2;
   static constexpr int kSpreads = 3;
   static constexpr int kMostSpread = (kSpreads - 1) * kSpreadStep;
-  static constexpr std::size_t kMostRows = 512;
+  static constexpr std::size_t kMostRows = 512, kMostWide = 128;
 
+  // a[x] + b[x - shift]
   struct RowSum {
     std::uint16_t a, b;
+    std::uint8_t shift;
+    bool operator==(const RowSum&) const = default;
   };
   struct Chains {
     std::vector<BlockChain> chains;  // row by row
@@ -43,16 +46,17 @@ struct BlockPlan {
   };
 
   int radius_y = 0;  // chains have rows -radius_y .. radius_y + kBlockRows - 1
-  // Row k of the edge plan for source row h is value row h * rows_a_line + k; behind them come sums a + b.
+  // Row k of the edge plan for source row h is value row h * rows_a_line + k; behind them come sums without shifts.
+  // Wide rows, from kMostRows on, are sums that take up to kMostSpread columns more: none is wider than the next one.
   std::size_t rows_a_line = 0;
-  std::vector<RowSum> sums;
+  std::vector<RowSum> sums, wide;
   Chains of_spread[kSpreads];
 
   // A whole block's cost in proportion to that of its rows one by one, of kAllRows.
   static constexpr int kAllRows = 64;
   int cost = 0;
 
-  std::size_t value_rows() const noexcept { return kBlockRows * rows_a_line + sums.size(); }
+  std::size_t value_rows() const noexcept { return kBlockRows * rows_a_line + sums.size(); }  // without wide ones
   bool empty() const noexcept { return rows_a_line == 0; }
 };
 

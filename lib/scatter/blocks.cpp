@@ -93,7 +93,7 @@ void WriteBlock(const EdgePlan& edges, const BlockPlan& plan, const SourceBlock<
   if (from >= to) return;
 
   constexpr int n = kBlockValues<lanes>, stride = kBlockStride<lanes>;
-  Accumulator* const values = memory.rows(plan.value_rows(), n, kBlockPad<lanes>);
+  Accumulator* const values = memory.rows(BlockPlan::kMostRows + BlockPlan::kMostWide, n, kBlockPad<lanes>);
   Accumulator* out = values;
   for (std::size_t line = 0; line < kBlockRows; ++line) {
     const std::size_t h = up ? line : kBlockRows - 1 - line;
@@ -106,6 +106,13 @@ void WriteBlock(const EdgePlan& edges, const BlockPlan& plan, const SourceBlock<
     const Accumulator *const a = values + sum.a * stride, *const b = values + sum.b * stride;
     ForEachPart<n>([&](auto d, int i)
                        HWY_ATTR { hn::StoreU(hn::Add(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), d, out + i); });
+    out += stride;
+  }
+  out = values + BlockPlan::kMostRows * stride;
+  for (const BlockPlan::RowSum& sum : plan.wide) {
+    const Accumulator *const a = values + sum.a * stride, *const b = values + sum.b * stride - sum.shift * lanes;
+    ForEachPart<stride>([&](auto d, int i)
+                            HWY_ATTR { hn::StoreU(hn::Add(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), d, out + i); });
     out += stride;
   }
   const int x = block.x + members.column;

@@ -25,7 +25,8 @@ struct SourceBlock {
 // Room for the value rows of a block. One thread's at a time.
 class BlockValues {
  public:
-  // `rows` rows of `size` values each, with `pad` zeros before, between and after them that nobody may change.
+  // `rows` rows of `size` values each, with `pad` zeros before, between and after them. Between any but the last ones,
+  // nobody may change them.
   Accumulator* rows(std::size_t rows, std::size_t size, std::size_t pad) {
     if (size != size_) values_.clear();
     size_ = size;

@@ -139,7 +139,7 @@ std::span<const EdgePlan> KernelTable::move(int from, int to) const {
   return *move.plans;
 }
 
-// Making a plan takes about as long as some 30 blocks save.
+// Making a plan takes about as long as some 80 blocks save.
 const BlockPlan& KernelTable::block_at(Block& block, std::span<const EdgePlan> edges) {
   static const BlockPlan none;
   if (block.asked.load(std::memory_order_relaxed) < kAskedForBlock) {

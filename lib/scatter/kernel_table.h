@@ -49,7 +49,7 @@ class KernelTable {
   std::span<const EdgePlan> move(int from, int to) const;
   // Of whole blocks. Made when asked for often enough to be worth it, from any thread; until then, and where rows are
   // written faster one by one, empty.
-  static constexpr int kAskedForBlock = 32;
+  static constexpr int kAskedForBlock = 64;
   const BlockPlan& block(int signed_index) const;
   const BlockPlan& block_move(int from, int to) const;
   // Of the kernel; 0 for what is no index of the table.
