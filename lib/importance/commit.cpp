@@ -30,9 +30,7 @@ FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTa
       ingest.indices(x, y, n, index, row.findings);
       ingest.sanitised(x, y, n, pixels, row.findings);
       row.opaque = row.opaque && are_opaque<type>(pixels, n);
-      int largest = 0;
-      for (int i = 0; i < n; ++i) largest = std::max(largest, reach_index(index[i]));
-      return largest;
+      return largest_reach(index, n);
     };
     tbb::parallel_for(0, grid.rows(), [&](int r) {
       TileRow& row = rows[static_cast<std::size_t>(r)];

@@ -1,7 +1,10 @@
 // Frames and states by rows of tiles: what detection and commit share.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "importance/edge_count.h"
@@ -11,15 +14,26 @@
 namespace pullfocus {
 
 template <SampleType type>
+inline constexpr std::uint32_t kOne = type == SampleType::half ? 0x3c00 : 0x3f800000;
+
+template <SampleType type>
 bool is_opaque(const Pixel<type>& pixel) noexcept {
-  return pixel.rgba[3] == (type == SampleType::half ? 0x3c00u : 0x3f800000u);
+  return pixel.rgba[3] == kOne<type>;
 }
 
 template <SampleType type>
 bool are_opaque(const Pixel<type>* pixels, int n) noexcept {
-  bool all = true;
-  for (int i = 0; i < n; ++i) all &= is_opaque<type>(pixels[i]);
-  return all;
+  // The word that holds alpha: simple enough for the compiler to use vectors.
+  using Words = std::array<std::uint64_t, sizeof(Pixel<type>) / sizeof(std::uint64_t)>;
+  constexpr auto word_of = [](std::uint32_t alpha) {
+    Pixel<type> pixel{};
+    pixel.rgba[3] = static_cast<std::remove_reference_t<decltype(pixel.rgba[3])>>(alpha);
+    return std::bit_cast<Words>(pixel).back();
+  };
+  constexpr std::uint64_t one = word_of(kOne<type>), alpha = word_of(~0u);
+  std::uint64_t difference = 0;
+  for (int i = 0; i < n; ++i) difference |= std::bit_cast<Words>(pixels[i]).back() ^ one;
+  return (difference & alpha) == 0;
 }
 
 inline std::size_t position(const TileGrid& grid, int x, int y) noexcept {

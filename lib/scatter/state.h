@@ -25,6 +25,17 @@ inline bool is_source(std::int16_t index) noexcept { return index > kHeldOut; }
 // |index| of a source; 0, which reaches the pixel alone, for all others.
 inline int reach_index(std::int16_t index) noexcept { return is_source(index) ? std::abs(int{index}) : 0; }
 
+// The largest of n indices.
+inline int largest_reach(const std::int16_t* index, int n) noexcept {
+  std::int16_t low = 0, high = 0;
+  for (int i = 0; i < n; ++i) {  // simple enough for the compiler to use vectors
+    const std::int16_t of_source = is_source(index[i]) ? index[i] : std::int16_t{0};
+    low = std::min(low, of_source);
+    high = std::max(high, of_source);
+  }
+  return std::max(-low, int{high});
+}
+
 // The smallest and the largest of some indices.
 struct IndexBounds {
   int least, most;

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
 #include <set>
 
 #include "filter/incremental_filter.h"
+#include "importance/tile_row.h"
 #include "plain_frames.h"
 
 namespace pullfocus {
@@ -23,6 +25,48 @@ constexpr auto float32 = SampleType::float32;
 const Window window{0, 0, 150, 70};
 
 constexpr int buckets = 194;
+
+template <SampleType type>
+void expect_opaque_as_pixel_by_pixel() {
+  std::mt19937 random(5);
+  std::vector<Pixel<type>> pixels(64);
+  int opaque = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const int n = 1 + static_cast<int>(random() % 64);
+    for (auto& pixel : pixels) {
+      for (auto& value : pixel.rgba) value = static_cast<std::remove_reference_t<decltype(value)>>(random());
+      pixel.rgba[3] = kOne<type>;
+    }
+    // One bit of alpha, in or behind the row.
+    auto& alpha = pixels[random() % 64].rgba[3];
+    using Bits = std::remove_reference_t<decltype(alpha)>;
+    if (round % 3 != 0) alpha = static_cast<Bits>(alpha ^ 1u << random() % (8 * sizeof(Bits)));
+    const bool all = std::all_of(pixels.begin(), pixels.begin() + n, is_opaque<type>);
+    ASSERT_EQ(are_opaque<type>(pixels.data(), n), all) << round;
+    opaque += all;
+  }
+  EXPECT_GT(opaque, 700);
+  EXPECT_LT(opaque, 1900);
+}
+
+TEST(TileRows, AreOpaqueIfEveryPixelOfThemIs) {
+  expect_opaque_as_pixel_by_pixel<SampleType::half>();
+  expect_opaque_as_pixel_by_pixel<SampleType::float32>();
+}
+
+TEST(TileRows, ReachAsFarAsTheLargestIndexOfASource) {
+  std::mt19937 random(6);
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<std::int16_t> index(1 + random() % 64);
+    int largest = 0;
+    for (auto& i : index) {
+      const auto kind = random() % 8;
+      i = kind == 0 ? kHeldOut : kind == 1 ? kNeverCommitted : static_cast<std::int16_t>(random() % 801 - 400);
+      largest = std::max(largest, reach_index(i));
+    }
+    ASSERT_EQ(largest_reach(index.data(), static_cast<int>(index.size())), largest);
+  }
+}
 
 TEST(Buckets, AreMonotoneEightAnOctaveAndBounded) {
   int before = bucket_of(0, buckets);
