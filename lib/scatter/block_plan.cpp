@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -34,7 +35,12 @@ class BlockPlanner {
       if (plan_.value_rows() > BlockPlan::kMostRows) return {};
     }
     plan_.wide = share_terms(chains_);
-    for (const PlannedChain& chain : chains_) list(chain);
+    const auto others = std::stable_partition(chains_.begin(), chains_.end(),
+                                              [](const PlannedChain& chain) { return chain.terms.size() == 1; });
+    std::stable_sort(chains_.begin(), others, [](const PlannedChain& a, const PlannedChain& b) {
+      return key_of(a.terms.front()) < key_of(b.terms.front());
+    });
+    for (auto chain = chains_.begin(); chain != chains_.end(); ++chain) list(*chain, chain < others);
     plan_.cost = cost();
     if (plan_.cost >= BlockPlan::kAllRows) return {};
     return std::move(plan_);
@@ -44,7 +50,8 @@ class BlockPlanner {
   const EdgePlan& edges_;
   BlockPlan plan_;
   std::vector<PlannedChain> chains_;
-  std::vector<Stretch> stretches_;     // of one row of the picture
+  int last_key_[BlockPlan::kSpreads] = {-1, -1, -1};  // of the chain listed last
+  std::vector<Stretch> stretches_;                    // of one row of the picture
   std::vector<std::uint16_t> sum_at_;  // value row of a stretch of several source rows, 0 if there is none yet
 
   // Fitted to measured times, a tenth on the safe side. Its unit is a vector of two columns that is read and written.
@@ -56,9 +63,9 @@ class BlockPlanner {
     double block = 3 * count, rows = 0;
     for (int spread = 0; spread < BlockPlan::kSpreads; ++spread) {
       const double vectors = (kBlockColumns + spread * BlockPlan::kSpreadStep) / 2.;
-      for (const BlockChain& chain : plan_.of_spread[spread].chains) {
-        block += vectors * (1 + term * (chain.added + chain.taken));
-      }
+      const BlockPlan::Chains& list = plan_.of_spread[spread];
+      const auto reads = static_cast<double>(list.groups.size() + list.terms.size() - in_groups(list));
+      block += vectors * (static_cast<double>(list.chains.size()) + term * reads);
     }
     for (const auto& lists : edges_.chains) {
       for (int length = 1; length <= kMaxChain; ++length) {
@@ -68,6 +75,10 @@ class BlockPlanner {
     }
     rows *= kBlockRows * kBlockColumns / 8.;
     return static_cast<int>(BlockPlan::kAllRows * 1.1 * block / rows);
+  }
+
+  static std::size_t in_groups(const BlockPlan::Chains& list) {
+    return std::accumulate(list.groups.begin(), list.groups.end(), std::size_t{0});
   }
 
   // The edges of all source rows in row dy: those of neighbouring source rows at one column become one stretch.
@@ -138,8 +149,16 @@ class BlockPlanner {
     return end;
   }
 
-  void list(const PlannedChain& chain) {
+  static int key_of(const PlannedTerm& term) { return (term.row * 16 + term.shift) * 2 + term.taken; }
+
+  void list(const PlannedChain& chain, bool in_group) {
     BlockPlan::Chains& list = plan_.of_spread[(chain.spread + BlockPlan::kSpreadStep - 1) / BlockPlan::kSpreadStep];
+    if (in_group) {
+      int& last = last_key_[&list - plan_.of_spread];
+      if (last != key_of(chain.terms.front())) list.groups.push_back(0);
+      last = key_of(chain.terms.front());
+      ++list.groups.back();
+    }
     BlockChain listed{chain.dx, chain.dy, 0, 0};
     for (const bool taken : {false, true}) {
       for (const PlannedTerm& planned : chain.terms) {

@@ -41,8 +41,10 @@ struct BlockPlan {
     bool operator==(const RowSum&) const = default;
   };
   struct Chains {
-    std::vector<BlockChain> chains;  // row by row
+    std::vector<BlockChain> chains;
     std::vector<BlockTerm> terms;
+    // The first chains have one term each, so many in turn the same one with the same sign. The others come row by row.
+    std::vector<std::uint16_t> groups;
   };
 
   int radius_y = 0;  // chains have rows -radius_y .. radius_y + kBlockRows - 1

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scatter/blocks.cpp"
@@ -42,13 +43,38 @@ HWY_INLINE void WriteBlockChains(const BlockPlan& plan, const Accumulator* HWY_R
   constexpr int together = std::min(all, 10);                                // in registers
   constexpr int stride = kBlockStride<lanes>;
   const BlockPlan::Chains& list = plan.of_spread[spread / BlockPlan::kSpreadStep];
+  const BlockChain* at = list.chains.data();
   const BlockTerm* terms = list.terms.data();
+  const auto row_of = [&](const BlockTerm& term) { return values + term.row * stride - term.shift * lanes; };
+  const auto place_of = [&](const BlockChain& chain) {
+    return place.first_row + (chain.dy - place.dy0) * place.row_step + chain.dx * lanes;
+  };
+  for (const std::uint16_t size_of_group : list.groups) {
+    const Accumulator* const in = row_of(*terms);
+    for (int first = 0; first < all; first += together) {
+      hn::Vec<decltype(d)> row[together];
+      const int left = std::min(together, all - first);
+      for (int i = 0; i < together; ++i) {
+        if (i < left) row[i] = hn::LoadU(d, in + (first + i) * size);
+        if (i < left && at->taken != 0) row[i] = hn::Sub(hn::Zero(d), row[i]);
+      }
+      for (const BlockChain& chain : std::span(at, size_of_group)) {
+        if (chain.dy < place.dy0 || chain.dy >= place.dy1) continue;
+        Accumulator* const out = place_of(chain) + first * size;
+        for (int i = 0; i < together; ++i) {
+          if (i < left) hn::StoreU(hn::Add(row[i], hn::LoadU(d, out + i * size)), d, out + i * size);
+        }
+      }
+    }
+    at += size_of_group;
+    terms += size_of_group;
+  }
   int count = 0;
-  for (const BlockChain& chain : list.chains) {
+  for (const BlockChain& chain : std::span(at, list.chains.data() + list.chains.size())) {
     terms += count;
     count = chain.added + chain.taken;
     if (chain.dy < place.dy0 || chain.dy >= place.dy1) continue;
-    Accumulator* const out = place.first_row + (chain.dy - place.dy0) * place.row_step + chain.dx * lanes;
+    Accumulator* const out = place_of(chain);
     const int added = chain.added;
     for (int first = 0; first < all; first += together) {
       hn::Vec<decltype(d)> v[together];
@@ -58,13 +84,13 @@ HWY_INLINE void WriteBlockChains(const BlockPlan& plan, const Accumulator* HWY_R
       }
       int t = 0;
       for (; t < added; ++t) {
-        const Accumulator* const in = values + terms[t].row * stride - terms[t].shift * lanes + first * size;
+        const Accumulator* const in = row_of(terms[t]) + first * size;
         for (int i = 0; i < together; ++i) {
           if (i < left) v[i] = hn::Add(v[i], hn::LoadU(d, in + i * size));
         }
       }
       for (; t < count; ++t) {
-        const Accumulator* const in = values + terms[t].row * stride - terms[t].shift * lanes + first * size;
+        const Accumulator* const in = row_of(terms[t]) + first * size;
         for (int i = 0; i < together; ++i) {
           if (i < left) v[i] = hn::Sub(v[i], hn::LoadU(d, in + i * size));
         }

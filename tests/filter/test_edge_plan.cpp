@@ -176,11 +176,27 @@ std::vector<Wide> rows_of_block(const BlockPlan& plan, const EdgePlan& of_row) {
   return rows;
 }
 
+void expect_groups_share_their_term(const BlockPlan::Chains& list) {
+  std::size_t next = 0;
+  for (const std::uint16_t size : list.groups) {
+    ASSERT_GT(size, 0);
+    ASSERT_LE(next + size, list.chains.size());
+    for (std::size_t i = next; i < next + size; ++i) {
+      ASSERT_EQ(list.chains[i].added + list.chains[i].taken, 1);
+      ASSERT_EQ(list.chains[i].taken, list.chains[next].taken);
+      ASSERT_EQ(int{list.terms[i].row}, int{list.terms[next].row});
+      ASSERT_EQ(int{list.terms[i].shift}, int{list.terms[next].shift});
+    }
+    next += size;
+  }
+}
+
 // By column and row.
 Weights edges_of_block(const BlockPlan& plan, const EdgePlan& of_row) {
   const std::vector<Wide> rows = rows_of_block(plan, of_row);
   Weights edges;
   for (int spread = 0; spread < BlockPlan::kSpreads; ++spread) {
+    expect_groups_share_their_term(plan.of_spread[spread]);
     std::size_t next = 0;
     for (const BlockChain& chain : plan.of_spread[spread].chains) {
       for (int t = 0; t < chain.added + chain.taken; ++t) {
