@@ -27,14 +27,14 @@ class BlockPlanner {
     sum_at_.assign(plan_.rows_a_line * kBlockRows * (kBlockRows + 1), 0);
   }
 
-  BlockPlan plan() {
+  BlockPlan plan(CommonSums sums) {
     if (kBlockRows * plan_.rows_a_line > BlockPlan::kMostRows) return {};
     for (int dy = -plan_.radius_y; dy < plan_.radius_y + kBlockRows; ++dy) {
       collect(dy);
       for (std::size_t i = 0; i < stretches_.size();) i = add_chain(i, dy);
       if (plan_.value_rows() > BlockPlan::kMostRows) return {};
     }
-    plan_.wide = share_terms(chains_);
+    if (sums == CommonSums::found) plan_.wide = share_terms(chains_);
     const auto others = std::stable_partition(chains_.begin(), chains_.end(),
                                               [](const PlannedChain& chain) { return chain.terms.size() == 1; });
     std::stable_sort(chains_.begin(), others, [](const PlannedChain& a, const PlannedChain& b) {
@@ -176,6 +176,6 @@ class BlockPlanner {
 
 }  // namespace
 
-BlockPlan block_plan_of(const EdgePlan& plan) { return BlockPlanner(plan).plan(); }
+BlockPlan block_plan_of(const EdgePlan& plan, CommonSums sums) { return BlockPlanner(plan).plan(sums); }
 
 }  // namespace pullfocus

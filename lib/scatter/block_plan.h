@@ -62,8 +62,10 @@ struct BlockPlan {
   bool empty() const noexcept { return rows_a_line == 0; }
 };
 
+enum class CommonSums { ignored, found };
+
 // Writes what `plan` does for each of kBlockRows rows. Empty if that takes more than kMostRows value rows, or more time
-// than writing the rows one by one.
-BlockPlan block_plan_of(const EdgePlan& plan);
+// than writing the rows one by one. Wide rows are made where common sums are to be found.
+BlockPlan block_plan_of(const EdgePlan& plan, CommonSums sums);
 
 }  // namespace pullfocus

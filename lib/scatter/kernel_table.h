@@ -48,8 +48,8 @@ class KernelTable {
   static constexpr int kFarthestMove = 4;
   std::span<const EdgePlan> move(int from, int to) const;
   // Of whole blocks. Made when asked for often enough to be worth it, from any thread; until then, and where rows are
-  // written faster one by one, empty.
-  static constexpr int kAskedForBlock = 64;
+  // written faster one by one, empty. When asked for much more often, with common sums, which take longer to find.
+  static constexpr int kAskedForBlock = 32, kAskedForSums = 512;
   const BlockPlan& block(int signed_index) const;
   const BlockPlan& block_move(int from, int to) const;
   // Of the kernel; 0 for what is no index of the table.
@@ -72,8 +72,8 @@ class KernelTable {
   std::vector<EdgePlan> plans_, plans_in_front_;
   struct Block {
     std::atomic<int> asked = 0;
-    std::once_flag once;
-    BlockPlan plan;
+    std::once_flag once, once_with_sums;
+    std::unique_ptr<const BlockPlan> plan, with_sums;
   };
   static const BlockPlan& block_at(Block& block, std::span<const EdgePlan> edges);
   struct Move {

@@ -114,7 +114,7 @@ BENCHMARK_CAPTURE(edges_of_sources, moved, RowKind::moved)
 void edges_of_blocks(benchmark::State& state, RowKind kind, bool as_rows) {
   const int radius = static_cast<int>(state.range(0));
   const int index = discs().coc().index(2 * static_cast<float>(radius));
-  for (int i = 0; i <= KernelTable::kAskedForBlock; ++i) {
+  for (int i = 0; i <= KernelTable::kAskedForSums; ++i) {
     discs().block(index);
     discs().block_move(index - 1, index);
   }

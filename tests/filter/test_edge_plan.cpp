@@ -236,13 +236,15 @@ TEST_P(EdgePlans, OfBlocksGiveWhatTheirRowsGive) {
   int blocks = 0;
   for (int index = 1 - table.coc().size(); index + 1 < table.coc().size(); ++index) {
     const EdgePlan &row = table.plan(index), &way = table.move(index, index + 1)[0];
-    const BlockPlan block = block_plan_of(row), move = block_plan_of(way);
-    if (!block.empty()) expect_equal(edges_of_block(block, row), edges_of_rows(row));
-    if (!move.empty()) expect_equal(edges_of_block(move, way), edges_of_rows(way));
-    ASSERT_FALSE(HasFatalFailure()) << "index " << index;
-    ASSERT_LE(block.value_rows(), BlockPlan::kMostRows);
-    ASSERT_LE(block.wide.size(), BlockPlan::kMostWide);
-    blocks += !block.empty();
+    for (const CommonSums sums : {CommonSums::ignored, CommonSums::found}) {
+      const BlockPlan block = block_plan_of(row, sums), move = block_plan_of(way, sums);
+      if (!block.empty()) expect_equal(edges_of_block(block, row), edges_of_rows(row));
+      if (!move.empty()) expect_equal(edges_of_block(move, way), edges_of_rows(way));
+      ASSERT_FALSE(HasFatalFailure()) << "index " << index;
+      ASSERT_LE(block.value_rows(), BlockPlan::kMostRows);
+      ASSERT_LE(block.wide.size(), sums == CommonSums::found ? BlockPlan::kMostWide : 0);
+      blocks += !block.empty();
+    }
   }
   EXPECT_GT(blocks, 0);
 }
@@ -264,7 +266,7 @@ TEST(EdgePlan, WritesTheEdgesOfNeighbouringDiscsTogether) {
 TEST(EdgePlan, OfABlockReadsAndWritesAThirdOfWhatRowsDo) {
   const KernelTable table(options_of(KernelShape::Kind::disc));
   for (int index = 10; index < table.coc().size(); ++index) {
-    const BlockPlan block = block_plan_of(table.plan(index));
+    const BlockPlan block = block_plan_of(table.plan(index), CommonSums::found);
     std::size_t written = 0;
     for (const auto& of_spread : block.of_spread) written += of_spread.chains.size();
     EXPECT_LE(3 * written, 1.25 * kBlockRows * static_cast<double>(chains(table.plan(index)))) << index;
@@ -279,7 +281,7 @@ TEST(EdgePlan, OfABlockAddsTermsThatManyChainsHaveOnce) {
   int solid = 0;
   for (int index = 10; index < table.coc().size(); ++index) {
     if (table.kernel(index).levels.size() > 2) continue;
-    const BlockPlan block = block_plan_of(table.plan(index));
+    const BlockPlan block = block_plan_of(table.plan(index), CommonSums::found);
     std::size_t chains = 0, terms = 0;
     for (const auto& of_spread : block.of_spread) {
       chains += of_spread.chains.size();
@@ -298,6 +300,9 @@ TEST(EdgePlan, OfABlockIsMadeWhenAskedForOften) {
     EXPECT_TRUE(table.block_move(40, 41).empty());
   }
   EXPECT_FALSE(table.block(20).empty());
+  EXPECT_TRUE(table.block(20).wide.empty());
+  for (int i = KernelTable::kAskedForBlock; i < KernelTable::kAskedForSums; ++i) table.block(20);
+  EXPECT_FALSE(table.block(20).wide.empty());
   EXPECT_EQ(&table.block(20), &table.block(-20));
   EXPECT_FALSE(table.block_move(40, 41).empty());
   EXPECT_TRUE(table.block_move(41, 40).empty());

@@ -128,20 +128,24 @@ void check_random_rows(const KernelTable& kernels) {
   }
 }
 
-// Rows of a block that are mostly alike; returns how many sources were written as blocks.
-template <int lanes>
-int check_random_blocks(const KernelTable& kernels) {
-  std::mt19937 random(5);
-  const BandLayout layout{kWidth, kHeight, 100, lanes};
+// Has plans of blocks made.
+void ask_for_blocks(const KernelTable& kernels, int times) {
   const int size = kernels.coc().size();
   for (int index = 1 - size; index < size; ++index) {
-    for (int i = 0; i < KernelTable::kAskedForBlock; ++i) {
+    for (int i = 0; i < times; ++i) {
       kernels.block(index);
       for (int by = -1; by <= 1; ++by) {
         if (std::abs(index + by) < size) kernels.block_move(index, index + by);
       }
     }
   }
+}
+
+// Rows of a block that are mostly alike; returns how many sources were written as blocks.
+template <int lanes>
+int check_random_blocks(const KernelTable& kernels) {
+  std::mt19937 random(5);
+  const BandLayout layout{kWidth, kHeight, 100, lanes};
   BlockValues values;
   int in_blocks = 0;
   for (int round = 0; round < 60; ++round) {
@@ -204,12 +208,15 @@ TEST_P(Edges, RowsEqualSingleEdgesOnEveryTarget) {
 }
 
 TEST_P(Edges, BlocksEqualSingleEdgesOnEveryTarget) {
-  const KernelTable table = kernels(90);
-  for (const std::int64_t target : test::simd_targets()) {
-    const test::OnTarget on(target);
-    const int opaque = check_random_blocks<kOpaqueLanes>(table), alpha = check_random_blocks<kAlphaLanes>(table);
-    ASSERT_FALSE(HasFailure()) << "on " << test::simd_target_name(target);
-    EXPECT_GT(std::min(opaque, alpha), 1000) << "on " << test::simd_target_name(target);
+  for (const int asked : {KernelTable::kAskedForBlock, KernelTable::kAskedForSums}) {
+    const KernelTable table = kernels(90);
+    ask_for_blocks(table, asked);
+    for (const std::int64_t target : test::simd_targets()) {
+      const test::OnTarget on(target);
+      const int opaque = check_random_blocks<kOpaqueLanes>(table), alpha = check_random_blocks<kAlphaLanes>(table);
+      ASSERT_FALSE(HasFailure()) << "on " << test::simd_target_name(target);
+      EXPECT_GT(std::min(opaque, alpha), 1000) << "on " << test::simd_target_name(target);
+    }
   }
 }
 
