@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <span>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scatter/blocks.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "scatter/block_chains-inl.h"
 #include "scatter/value_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,90 +17,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <int lanes>
-constexpr int kBlockValues = kBlockColumns * lanes;
-// A chain's terms are read as far as it spreads, and on to the end of a vector of at most 8.
-template <int lanes>
-constexpr int kBlockPad = (BlockPlan::kMostSpread * lanes + 7) / 8 * 8;
-template <int lanes>
-constexpr int kBlockStride = kBlockValues<lanes> + kBlockPad<lanes>;
-
 constexpr int kMostKernels = 3;  // of a block that are looked at
-
-// Rows [dy0, dy1) of the band, counted from the block's first; `first_row` is at its first column, in row dy0.
-struct BlockPlace {
-  Accumulator* first_row;
-  std::ptrdiff_t row_step;
-  int dy0, dy1;
-};
-
-template <int lanes, int spread>
-HWY_INLINE void WriteBlockChains(const BlockPlan& plan, const Accumulator* HWY_RESTRICT values,
-                                 const BlockPlace& place) {
-  const hn::CappedTag<Accumulator, 8> d;
-  constexpr int size = static_cast<int>(hn::MaxLanes(d));
-  constexpr int all = ((kBlockColumns + spread) * lanes + size - 1) / size;  // vectors
-  constexpr int together = std::min(all, 10);                                // in registers
-  constexpr int stride = kBlockStride<lanes>;
-  const BlockPlan::Chains& list = plan.of_spread[spread / BlockPlan::kSpreadStep];
-  const BlockChain* at = list.chains.data();
-  const BlockTerm* terms = list.terms.data();
-  const auto row_of = [&](const BlockTerm& term) { return values + term.row * stride - term.shift * lanes; };
-  const auto place_of = [&](const BlockChain& chain) {
-    return place.first_row + (chain.dy - place.dy0) * place.row_step + chain.dx * lanes;
-  };
-  for (const std::uint16_t size_of_group : list.groups) {
-    const Accumulator* const in = row_of(*terms);
-    for (int first = 0; first < all; first += together) {
-      hn::Vec<decltype(d)> row[together];
-      const int left = std::min(together, all - first);
-      for (int i = 0; i < together; ++i) {
-        if (i < left) row[i] = hn::LoadU(d, in + (first + i) * size);
-        if (i < left && at->taken != 0) row[i] = hn::Sub(hn::Zero(d), row[i]);
-      }
-      for (const BlockChain& chain : std::span(at, size_of_group)) {
-        if (chain.dy < place.dy0 || chain.dy >= place.dy1) continue;
-        Accumulator* const out = place_of(chain) + first * size;
-        for (int i = 0; i < together; ++i) {
-          if (i < left) hn::StoreU(hn::Add(row[i], hn::LoadU(d, out + i * size)), d, out + i * size);
-        }
-      }
-    }
-    at += size_of_group;
-    terms += size_of_group;
-  }
-  int count = 0;
-  for (const BlockChain& chain : std::span(at, list.chains.data() + list.chains.size())) {
-    terms += count;
-    count = chain.added + chain.taken;
-    if (chain.dy < place.dy0 || chain.dy >= place.dy1) continue;
-    Accumulator* const out = place_of(chain);
-    const int added = chain.added;
-    for (int first = 0; first < all; first += together) {
-      hn::Vec<decltype(d)> v[together];
-      const int left = std::min(together, all - first);
-      for (int i = 0; i < together; ++i) {
-        if (i < left) v[i] = hn::LoadU(d, out + (first + i) * size);
-      }
-      int t = 0;
-      for (; t < added; ++t) {
-        const Accumulator* const in = row_of(terms[t]) + first * size;
-        for (int i = 0; i < together; ++i) {
-          if (i < left) v[i] = hn::Add(v[i], hn::LoadU(d, in + i * size));
-        }
-      }
-      for (; t < count; ++t) {
-        const Accumulator* const in = row_of(terms[t]) + first * size;
-        for (int i = 0; i < together; ++i) {
-          if (i < left) v[i] = hn::Sub(v[i], hn::LoadU(d, in + i * size));
-        }
-      }
-      for (int i = 0; i < together; ++i) {
-        if (i < left) hn::StoreU(v[i], d, out + (first + i) * size);
-      }
-    }
-  }
-}
 
 // Sources that share a plan, in kBlockColumns columns of the tile from `column` on: bit i of of[h] is one of row h.
 struct BlockMembers {
