@@ -4,9 +4,25 @@
 
 namespace pullfocus {
 
-int band_height(int span, int reach, int threads) noexcept {
+namespace {
+
+constexpr int kLeastHeight = 8, kMostHeight = 128;
+constexpr std::size_t kBandBytes = 11 << 19;  // of sums: a thread's part of caches that several share
+
+// An odd number of cache lines a row keeps the rows of one kernel out of the same cache sets.
+std::size_t stride_of(const BandLayout& layout) noexcept {
+  constexpr std::size_t line = 64 / sizeof(Accumulator);
+  const auto values = static_cast<std::size_t>((layout.width + 2 * layout.pad) * layout.lanes);
+  return ((values + line - 1) / line | 1) * line;
+}
+
+}  // namespace
+
+int band_height(int span, int reach, int threads, const BandLayout& layout) noexcept {
   const auto up = [](int a, int b) { return (a + b - 1) / b; };
-  const int high = std::clamp(up(span, 4 * threads), std::clamp(reach / 2, 8, 64), 128);
+  const auto in_caches = static_cast<int>(kBandBytes / (stride_of(layout) * sizeof(Accumulator)));
+  int high = std::clamp(in_caches, std::clamp(reach * 5 / 2, kLeastHeight, kMostHeight), kMostHeight);
+  if (threads > 1) high = std::min(high, std::max(up(span, 8 * threads), std::clamp(2 * reach, 16, 68)));
   return up(span, up(span, high * threads) * threads);
 }
 
@@ -15,10 +31,7 @@ void Band::begin(const BandLayout& layout, int y0, int y1) {
   y0_ = y0;
   y1_ = y1;
   const auto padded = static_cast<std::size_t>(layout.width + 2 * layout.pad);
-  stride_ = padded * static_cast<std::size_t>(layout.lanes);
-  // An odd number of cache lines a row keeps the rows of one kernel out of the same cache sets.
-  stride_ = (stride_ + 7) / 8 * 8;
-  if (stride_ / 8 % 2 == 0) stride_ += 8;
+  stride_ = stride_of(layout);
   words_ = (padded + kCell * 64 - 1) / (kCell * 64);
   const auto rows = static_cast<std::size_t>(y1 - y0);
   values_.resize(std::max(values_.size(), rows * stride_));  // finished rows are zero already

@@ -36,14 +36,26 @@ TEST(BandHeight, IsAnEqualShareOfTheRowsForEveryThreadAndRound) {
   for (const int reach : {0, 10, 80, 500}) {
     for (int threads = 1; threads <= 9; ++threads) {
       for (int span = 1; span <= 5000; span += 1 + span / 7) {
-        const int height = band_height(span, reach, threads), bands = (span + height - 1) / height;
-        ASSERT_GE(height, 1);
-        ASSERT_LE(height, 128);
-        const int rounds = (bands + threads - 1) / threads;
-        ASSERT_LE(height, (span + rounds * threads - 1) / (rounds * threads)) << span << " rows, " << threads;
+        for (const int width : {1, 1920, 100000}) {
+          const int height = band_height(span, reach, threads, {width, span}), bands = (span + height - 1) / height;
+          ASSERT_GE(height, 1);
+          ASSERT_LE(height, 128);
+          const int rounds = (bands + threads - 1) / threads;
+          ASSERT_LE(height, (span + rounds * threads - 1) / (rounds * threads)) << span << " rows, " << threads;
+        }
       }
     }
   }
+}
+
+TEST(BandHeight, FallsWithTheBytesOfARowUntilKernelsReachTooFar) {
+  const auto height = [](int reach, const BandLayout& layout) { return band_height(layout.height, reach, 1, layout); };
+  const BandLayout hd{1920, 12800}, uhd{3840, 12800}, with_alpha{1920, 12800, 0, kAlphaLanes};
+  EXPECT_LT(height(5, hd), 128);
+  EXPECT_NEAR(height(5, uhd), height(5, hd) / 2, 1);
+  EXPECT_LT(height(5, with_alpha), height(5, hd));
+  EXPECT_EQ(height(5, {640, 12800}), 128);
+  EXPECT_GE(height(40, uhd), 90);
 }
 
 TEST(Mirror, EqualsWalkingToAndFroBetweenTheBorders) {
