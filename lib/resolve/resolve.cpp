@@ -100,13 +100,28 @@ bool resolve_layers(std::span<const Accumulator* const> layers, int lanes, int x
 
 void resolve_rows(std::span<const LayerRow> rows, int lanes, int y, const ColourImage& own, ColourImage& out, int near,
                   Backdrop* backdrop) {
-  const Accumulator* layers[kMostLayers];
-  std::size_t in_front = 0;
-  for (std::size_t l = 0; l < rows.size(); ++l) {
-    layers[l] = rows[l].values;
-    in_front += rows[l].layer < near;
+  const int width = out.window().width();
+  const auto down = [](int x) { return x / Backdrop::kChunk * Backdrop::kChunk; };
+  const auto up = [&](int x) { return std::min(down(x + Backdrop::kChunk - 1), width); };
+  std::span<const ColumnSpan> ahead[kMostLayers];
+  for (std::size_t l = 0; l < rows.size(); ++l) ahead[l] = rows[l].spans;
+  // Stretches that the same layers have spans in: others' sums, which nobody wrote, are not read.
+  for (int x = 0, end = 0; x < width; x = end) {
+    end = width;
+    const Accumulator* layers[kMostLayers];
+    std::size_t count = 0, in_front = 0;
+    for (std::size_t l = 0; l < rows.size(); ++l) {
+      while (!ahead[l].empty() && up(ahead[l].front().x1) <= x) ahead[l] = ahead[l].subspan(1);
+      if (ahead[l].empty()) continue;
+      const ColumnSpan& span = ahead[l].front();
+      const bool is_here = down(span.x0) <= x;
+      end = std::min(end, is_here ? up(span.x1) : down(span.x0));
+      if (!is_here) continue;
+      layers[count++] = rows[l].values + static_cast<std::ptrdiff_t>(x) * lanes;
+      in_front += rows[l].layer < near;
+    }
+    resolve_layers({layers, count}, lanes, x, end, y, own, out, in_front, backdrop);
   }
-  resolve_layers({layers, rows.size()}, lanes, 0, out.window().width(), y, own, out, in_front, backdrop);
 }
 
 }  // namespace pullfocus
