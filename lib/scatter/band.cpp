@@ -6,8 +6,8 @@ namespace pullfocus {
 
 namespace {
 
-constexpr int kLeastHeight = 8, kMostHeight = 128;
-constexpr std::size_t kBandBytes = 11 << 19;  // of sums: a thread's part of caches that several share
+constexpr int kLeastHeight = 64, kMostHeight = 128;  // of one thread's bands
+constexpr std::size_t kBandBytes = 11 << 19;         // of sums: a thread's part of caches that several share
 
 // An odd number of cache lines a row keeps the rows of one kernel out of the same cache sets.
 std::size_t stride_of(const BandLayout& layout) noexcept {
