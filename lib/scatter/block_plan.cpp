@@ -50,8 +50,7 @@ class BlockPlanner {
   const EdgePlan& edges_;
   BlockPlan plan_;
   std::vector<PlannedChain> chains_;
-  int last_key_[BlockPlan::kSpreads] = {-1, -1, -1};  // of the chain listed last
-  std::vector<Stretch> stretches_;                    // of one row of the picture
+  std::vector<Stretch> stretches_;     // of one row of the picture
   std::vector<std::uint16_t> sum_at_;  // value row of a stretch of several source rows, 0 if there is none yet
 
   // Fitted to measured times, a tenth on the safe side. Its unit is a vector of two columns that is read and written.
@@ -153,12 +152,6 @@ class BlockPlanner {
 
   void list(const PlannedChain& chain, bool in_group) {
     BlockPlan::Chains& list = plan_.of_spread[(chain.spread + BlockPlan::kSpreadStep - 1) / BlockPlan::kSpreadStep];
-    if (in_group) {
-      int& last = last_key_[&list - plan_.of_spread];
-      if (last != key_of(chain.terms.front())) list.groups.push_back(0);
-      last = key_of(chain.terms.front());
-      ++list.groups.back();
-    }
     BlockChain listed{chain.dx, chain.dy, 0, 0};
     for (const bool taken : {false, true}) {
       for (const PlannedTerm& planned : chain.terms) {
@@ -171,6 +164,12 @@ class BlockPlanner {
       }
     }
     list.chains.push_back(listed);
+    if (!in_group) return;
+    const std::size_t last = list.chains.size() - 1;  // of the terms, too
+    const bool is_like_last =
+        last > 0 && list.terms[last] == list.terms[last - 1] && list.chains[last].taken == list.chains[last - 1].taken;
+    if (!is_like_last) list.groups.push_back(0);
+    ++list.groups.back();
   }
 };
 

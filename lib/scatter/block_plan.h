@@ -18,6 +18,7 @@ inline constexpr int kBlockRows = 4, kBlockColumns = 16;
 // for the caches.
 struct BlockTerm {
   std::uint16_t row : 12, shift : 4;
+  bool operator==(const BlockTerm&) const = default;
 };
 
 // Edges of all source rows at columns dx .. dx + spread of row dy, counted from the block's first row: so many of the
