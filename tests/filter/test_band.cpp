@@ -59,6 +59,10 @@ TEST(BandHeight, FallsWithTheBytesOfARowUnlessItIsLowOrKernelsReachFar) {
   EXPECT_GE(height(40, uhd), 90);
 }
 
+TEST(BandHeight, StaysLowWhereFewRowsAreWritten) {
+  for (int threads = 1; threads <= 9; ++threads) EXPECT_LE(band_height(100, 10, threads, {256, 256}), 25) << threads;
+}
+
 TEST(Mirror, EqualsWalkingToAndFroBetweenTheBorders) {
   for (int size = 1; size <= 9; ++size) {
     for (int x = -60; x <= 60; ++x) ASSERT_EQ(mirror(x, size), walk(x, size)) << x << " in " << size;
