@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "resolve/chunk.h"
+#include "resolve/compose.h"
+#include "resolve/divide.h"
 
 namespace pullfocus {
 
