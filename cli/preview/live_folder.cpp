@@ -36,7 +36,7 @@ void LiveSession::look_at_folder(const exr::Pattern& pattern, const FileTimes& o
 // Between two pictures: not while anything of the old one is to be written. The choice of camera, keys and kernel
 // stays, and the frame, if it is still there.
 void LiveSession::take_over_new_shot() {
-  if (jobs_.waiting() > 0 || open_->engine.is_ordered()) return;
+  if (waiting_to_be_written() > 0) return;
   {
     const std::lock_guard lock(mutex_);
     if (!new_shot_) return;

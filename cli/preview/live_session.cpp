@@ -125,9 +125,13 @@ int LiveSession::failures() const {
 
 bool LiveSession::is_settled() const { return open_->engine.is_settled(); }
 
-bool LiveSession::is_writing() const {
-  return jobs_.waiting() > 0 || open_->engine.is_ordered() || (shot_run_ && !shot_run_->is_over());
+// Asked of the engine first: what it delivers meanwhile is a job before it is an order no more.
+int LiveSession::waiting_to_be_written() const {
+  const int ordered = open_->engine.is_ordered() ? 1 : 0;
+  return ordered + jobs_.waiting();
 }
+
+bool LiveSession::is_writing() const { return waiting_to_be_written() > 0 || (shot_run_ && !shot_run_->is_over()); }
 
 void LiveSession::use(const Choice& choice) {
   if (choice.kernel != choice_.kernel || choice.visibility != choice_.visibility) setup_ = make_setup(choice);

@@ -92,6 +92,7 @@ class LiveSession final : public Session {
   void autosave(double seconds);
   void export_frame(const std::string& name);
   void export_shot(const std::string& out);
+  int waiting_to_be_written() const;  // frames, and other work of the jobs' thread
   void look_for_files(double seconds);
   void look_at_folder(const exr::Pattern& pattern, const FileTimes& opened);  // on the jobs' thread
   void take_over_new_shot();

@@ -58,7 +58,7 @@ Snapshot LiveSession::snapshot() {
   s.command_line = shell_line(filter_arguments(arguments_.input, arguments_.camera, choice_.keys, filter_of(choice_),
                                                arguments_.out.empty() ? "OUT/" : arguments_.out));
   if (shot_run_ && !shot_run_->is_over()) s.job = shot_run_->share_done();
-  s.writing = jobs_.waiting() + (open_->engine.is_ordered() ? 1 : 0);
+  s.writing = waiting_to_be_written();
   s.memory_bytes = memory_of_process();
   s.title = open_->shot.sequence().pattern.text();
   const std::lock_guard lock(mutex_);

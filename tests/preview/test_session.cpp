@@ -146,6 +146,19 @@ TEST_F(SessionTest, SaysWhatItCouldNotWrite) {
   EXPECT_NE(session.snapshot().message.find("missing/out.png"), std::string::npos);
 }
 
+// Asked without a pause: an export goes from the thread that filters to the one that writes, and must be seen with one
+// of them at every moment.
+TEST_F(SessionTest, IsWritingUntilAnExportIsWrittenOrHasFailed) {
+  settle(session);
+  const int before = session.failures();
+  for (int i = 1; i <= 2000; ++i) {
+    does("export " + (files.folder / "missing/out.png"));
+    while (session.is_writing()) {
+    }
+    ASSERT_EQ(session.failures(), before + i);
+  }
+}
+
 TEST_F(SessionTest, RefusesNonsenseNamingIt) {
   for (const char* line : {"view sideways", "budget much", "refine perhaps", "exposure bright", "wipe 2", "fps 0",
                            "kernel square", "visibility clear", "step far", "loop 1", "export", "export-shot"}) {
