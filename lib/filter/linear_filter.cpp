@@ -20,17 +20,15 @@ const Stats& LinearFilter::filter(const Frame& frame, const CocFunction& coc, co
 
   core_.arena.execute([&] {
     const Stopwatch detect;
-    bool opaque = true;
-    const FrameFindings findings =
-        commit_all(frame, coc, core_.kernels->coc(), core_.sanitiser, state_, tiles_, opaque);
+    const Committed all = commit_all(frame, coc, *core_.kernels, core_.sanitiser, state_, tiles_);
     if (core_.occlusion) core_.occlusion->take(frame, coc.kind, state_, tiles_);
-    FilterCore::report(findings, stats_);
-    result_window_ = core_.reached(findings);
-    stats_.edges = committed_edges(state_, *core_.kernels);
+    FilterCore::report(all.findings, stats_);
+    result_window_ = core_.reached(all.findings);
+    stats_.edges = all.edges;
     stats_.detect_ms = detect.ms();
 
     const Stopwatch scatter;
-    const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
+    const int lanes = all.opaque ? kOpaqueLanes : kAlphaLanes;
     Sources sources{&state_};
     sources.occlusion = core_.hidden();
     if (core_.backdrop) core_.backdrop->begin_anew();

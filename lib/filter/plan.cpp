@@ -74,13 +74,13 @@ Plan make_plan(const FilterOptions& options, const KernelTable& kernels, const F
   SourceState state;
   state.reset(frame.window(), frame.colour.type());
   std::vector<TileWork> tiles;
-  bool opaque = true;
-  plan.clamped_coc = commit_all(frame, coc, kernels.coc(), sanitiser, state, tiles, opaque).coc_clamped;
-  plan.alpha = !opaque;
-  plan.linear_edges = committed_edges(state, kernels);
+  const Committed all = commit_all(frame, coc, kernels, sanitiser, state, tiles);
+  plan.clamped_coc = all.findings.coc_clamped;
+  plan.alpha = !all.opaque;
+  plan.linear_edges = all.edges;
 
   const double colour = static_cast<double>(frame.colour.pixel_bytes());
-  const int lanes = opaque ? kOpaqueLanes : kAlphaLanes;
+  const int lanes = all.opaque ? kOpaqueLanes : kAlphaLanes;
   plan.layers = measure_layers(options, kernels, state, tiles);
   double sums = 0;
   for (const Plan::Layer& layer : plan.layers) sums += layer.reached * lanes * 8.;

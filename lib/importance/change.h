@@ -42,10 +42,17 @@ Changes take_changes(const Frame& frame, const CocFunction& coc, const KernelTab
                      SourceState& state, const ChangeThresholds& thresholds, const Occlusion* occlusion = nullptr,
                      RememberedDepths* remembered = nullptr);
 
+// What a whole frame came to.
+struct Committed {
+  bool opaque = true;      // every pixel has an alpha of exactly 1
+  std::int64_t edges = 0;  // run edges of all kernels
+  FrameFindings findings;
+};
+
 // Takes over the whole frame into `state`, without looking at what it held. Fills `max_index` with the
 // largest |index| of every tile.
-FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
-                         SourceState& state, std::vector<TileWork>& tiles, bool& opaque);
+Committed commit_all(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, const Sanitiser& sanitiser,
+                     SourceState& state, std::vector<TileWork>& tiles);
 
 // Takes over the pixels of `tiles`.
 void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<std::int16_t>& pending,

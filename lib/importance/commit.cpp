@@ -16,20 +16,21 @@ constexpr int kMany = kTileWidth / 4;  // pixels of a tile row to look at the wh
 
 }  // namespace
 
-FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTable& table, const Sanitiser& sanitiser,
-                         SourceState& state, std::vector<TileWork>& tiles, bool& opaque) {
+Committed commit_all(const Frame& frame, const CocFunction& coc, const KernelTable& kernels, const Sanitiser& sanitiser,
+                     SourceState& state, std::vector<TileWork>& tiles) {
   state.may_hold_out = frame.has_mask();
   const TileGrid grid = grid_of(frame.window());
   tiles.resize(static_cast<std::size_t>(grid.count()));
   std::vector<TileRow> rows(static_cast<std::size_t>(grid.rows()));
   dispatch(frame.colour.type(), [&]<SampleType type>() {
-    const SegmentIngest<type> ingest(frame, coc, table, sanitiser);
+    const SegmentIngest<type> ingest(frame, coc, kernels.coc(), sanitiser);
     const auto segment = [&](int x, int y, int n, TileRow& row) {
       std::int16_t* index = &state.index[position(grid, x, y)];
       Pixel<type>* pixels = pixels_of<type>(state.colour, x, y);
       ingest.indices(x, y, n, index, row.findings);
       ingest.sanitised(x, y, n, pixels, row.findings);
       row.opaque = row.opaque && are_opaque<type>(pixels, n);
+      row.edges.committed += edges_of(kernels, index, n);
       return largest_reach(index, n);
     };
     tbb::parallel_for(0, grid.rows(), [&](int r) {
@@ -48,13 +49,13 @@ FrameFindings commit_all(const Frame& frame, const CocFunction& coc, const CocTa
       }
     });
   });
-  FrameFindings findings;
-  opaque = true;
+  Committed all;
   for (const TileRow& row : rows) {
-    findings.add(row.findings);
-    opaque &= row.opaque;
+    all.findings.add(row.findings);
+    all.opaque &= row.opaque;
+    all.edges += row.edges.committed;
   }
-  return findings;
+  return all;
 }
 
 void commit(const Frame& frame, const Sanitiser& sanitiser, const std::vector<std::int16_t>& pending,

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+
+#include "scatter/state.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "importance/edge_count.cpp"
@@ -69,6 +72,25 @@ EdgeCount edges_of_row(const KernelTable& kernels, const std::int16_t* was, cons
     std::copy(was + whole, was + n, last_was);
     std::copy(is + whole, is + n, last_is);
     sum.add(count(last_was, last_is, mask >> whole, together));
+  }
+  return sum;
+}
+
+std::int64_t edges_of(const KernelTable& kernels, const std::int16_t* index, int n) noexcept {
+  const std::span<const int> edges = kernels.edge_counts();
+  const auto none = static_cast<std::int16_t>(edges.size() - 1);
+  std::int16_t at[kTileWidth];
+  std::fill(std::copy_n(index, n, at), std::end(at), kNeverCommitted);
+  for (std::int16_t& i : at) {                          // simple enough for the compiler to use vectors
+    const std::int16_t within = std::max(i, kHeldOut);  // whose negative is an int16, too
+    i = std::min(std::max(within, static_cast<std::int16_t>(-within)), none);
+  }
+  constexpr int together = 4;
+  int sum = 0;  // of a row: fits, as above
+  for (int i = 0; i < kTileWidth; i += together) {
+    std::uint64_t four = 0;  // one load, where compilers would take vectors apart
+    std::memcpy(&four, at + i, sizeof four);
+    sum += (edges[four & 0xffff] + edges[four >> 16 & 0xffff]) + (edges[four >> 32 & 0xffff] + edges[four >> 48]);
   }
   return sum;
 }

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace pullfocus {
 
@@ -40,18 +39,6 @@ std::vector<TileWork> whole_state(const SourceState& state) {
   });
   std::erase_if(tiles, [](const TileWork& work) { return !work.mask.any(); });
   return tiles;
-}
-
-std::int64_t committed_edges(const SourceState& state, const KernelTable& kernels) {
-  const int width = state.colour.window().width(), height = state.colour.window().height();
-  std::vector<std::int64_t> rows(static_cast<std::size_t>(height));
-  tbb::parallel_for(0, height, [&](int y) {
-    const std::int16_t* index = row_of(state, y);
-    std::int64_t sum = 0;
-    for (int x = 0; x < width; ++x) sum += kernels.edge_count(index[x]);
-    rows[static_cast<std::size_t>(y)] = sum;
-  });
-  return std::accumulate(rows.begin(), rows.end(), std::int64_t{0});
 }
 
 }  // namespace pullfocus

@@ -73,7 +73,4 @@ struct SourceState {
 // Work that covers a state's committed pixels, held-out ones included, tile by tile.
 std::vector<TileWork> whole_state(const SourceState& state);
 
-// Run edges that scattering the whole state writes.
-std::int64_t committed_edges(const SourceState& state, const KernelTable& kernels);
-
 }  // namespace pullfocus

@@ -204,9 +204,8 @@ void select_of_a_million(benchmark::State& state, Order order) {
   const Sanitiser sanitiser(65504);
   SourceState committed;
   std::vector<TileWork> all;
-  bool opaque = true;
   committed.reset(frame.window(), SampleType::half);
-  commit_all(frame, kPlanar, discs().coc(), sanitiser, committed, all, opaque);
+  commit_all(frame, kPlanar, discs(), sanitiser, committed, all);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) frame.colour.set(x, y, 0, 1 + frame.colour.get(x, y, 0));
   }

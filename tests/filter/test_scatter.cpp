@@ -130,13 +130,6 @@ TEST_P(Scattering, OfAChangeEqualsTheDifferenceOfTwoPlainSumsBitForBit) {
   }
 }
 
-TEST_P(Scattering, EdgesOfAStateAreThoseOfItsKernels) {
-  const SourceState state = random_state();
-  std::int64_t edges = 0;
-  for (const std::int16_t i : state.index) edges += i == kNeverCommitted ? 0 : kernels_.kernel(i).edge_count();
-  EXPECT_EQ(committed_edges(state, kernels_), edges);
-}
-
 TEST_P(Scattering, OfNothingHandsOverNothing) {
   SourceState state;
   state.reset(window_, GetParam().type);

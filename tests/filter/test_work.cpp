@@ -1,6 +1,8 @@
 // What an update costs, in counters: only what changed, and never much more than starting afresh.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "filter/incremental_filter.h"
 #include "filter/linear_filter.h"
 #include "plain_frames.h"
@@ -37,6 +39,20 @@ TEST_F(Work, OfAnUnchangedFrameIsNone) {
     EXPECT_EQ(stats.edges, 0);
     EXPECT_EQ(stats.resolved, 0);
   }
+}
+
+TEST_F(Work, OfALinearFrameIsEveryPixelsKernel) {
+  Frame frame = flat_frame(window, half, {0.5f, 0.5f, 0.5f, 1}, 0);
+  std::mt19937 random(1);
+  std::int64_t expected = 0;
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      const float diameter = 30 * std::uniform_real_distribution<float>(-1, 1)(random);
+      frame.depth.at(x, y) = diameter;
+      expected += edges(diameter);
+    }
+  }
+  EXPECT_EQ(LinearFilter(window, options_, kernels_).filter(frame, coc_as_depth).edges, expected);
 }
 
 TEST_F(Work, OfOneColourIsOneKernel) {
