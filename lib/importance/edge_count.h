@@ -31,7 +31,8 @@ struct EdgeCount {
 EdgeCount edges_of_row(const KernelTable& kernels, const std::int16_t* was, const std::int16_t* is, std::uint64_t mask,
                        int n) noexcept;
 
-// Of the sources among n signed indices (0 <= n <= kTileWidth): the run edges of their kernels.
+// Of the sources among n signed indices (0 <= n <= kTileWidth): the run edges of their kernels. What edges_of_row()
+// finds committed if nothing was before, in half the time.
 std::int64_t edges_of(const KernelTable& kernels, const std::int16_t* index, int n) noexcept;
 
 }  // namespace pullfocus

@@ -1,7 +1,6 @@
 // All kernels of a run: one per signed CoC index.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <memory>
@@ -52,11 +51,6 @@ class KernelTable {
   static constexpr int kAskedForBlock = 32, kAskedForSums = 512;
   const BlockPlan& block(int signed_index) const;
   const BlockPlan& block_move(int from, int to) const;
-  // Of the kernel; 0 for what is no index of the table.
-  int edge_count(int signed_index) const noexcept {
-    const auto index = static_cast<std::size_t>(std::abs(signed_index));
-    return edges_[std::min(index, edges_.size() - 1)];
-  }
   std::span<const int> edge_counts() const noexcept { return edges_; }  // by |index|, and a 0 after the last
   bool symmetric() const noexcept { return symmetric_; }  // every kernel is its own mirror image in x and in y
   // Pixels that a flat kernel of the same spread would cover: 1 / sum of squared weights; >= 1.

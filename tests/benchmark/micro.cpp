@@ -99,7 +99,7 @@ void edges_of_sources(benchmark::State& state, RowKind kind) {
     write(discs(), sources, kernel.radius_y, image, band);
     benchmark::ClobberMemory();
   }
-  const int edges = kernel.edge_count() + (kind == RowKind::moved ? discs().edge_count(index - 1) : 0);
+  const int edges = kernel.edge_count() + (kind == RowKind::moved ? discs().kernel(index - 1).edge_count() : 0);
   state.SetItemsProcessed(state.iterations() * edges * count);
 }
 BENCHMARK_CAPTURE(edges_of_sources, plain, RowKind::plain)
@@ -146,7 +146,7 @@ void edges_of_blocks(benchmark::State& state, RowKind kind, bool as_rows) {
     }
     benchmark::ClobberMemory();
   }
-  const int edges = kernel.edge_count() + (kind == RowKind::moved ? discs().edge_count(index - 1) : 0);
+  const int edges = kernel.edge_count() + (kind == RowKind::moved ? discs().kernel(index - 1).edge_count() : 0);
   state.SetItemsProcessed(state.iterations() * edges * kBlockRows * kBlockColumns);
 }
 BENCHMARK_CAPTURE(edges_of_blocks, plain, RowKind::plain, false)
