@@ -61,9 +61,14 @@ class Detector {
     row.tiles.resize(static_cast<std::size_t>(grid_.columns()));
     for (int c = 0; c < grid_.columns(); ++c) row.tiles[static_cast<std::size_t>(c)].tile = first + c;
     for (int i = 0; i < grid_.tile_height(first); ++i) {
-      for (TileWork& work : row.tiles) {
-        work.mask.rows[i] =
-            segment(grid_.x(work.tile), grid_.y(work.tile) + i, grid_.tile_width(work.tile), work.max_index, row, take);
+      const int y = grid_.y(first) + i;
+      bool quiet = true;  // nothing changed just before
+      for (int c = 0; c < grid_.columns(); ++c) {
+        if (quiet) c += unchanged(c, y, row.findings);
+        if (c == grid_.columns()) break;
+        TileWork& work = row.tiles[static_cast<std::size_t>(c)];
+        work.mask.rows[i] = segment(grid_.x(work.tile), y, grid_.tile_width(work.tile), work.max_index, row, take);
+        quiet = work.mask.rows[i] == 0;
       }
     }
     std::erase_if(row.tiles, [](const TileWork& work) { return !work.mask.any(); });
@@ -71,6 +76,15 @@ class Detector {
   }
 
  private:
+  // How many whole tiles from column c on have nothing changed in row y that could be seen at a glance.
+  int unchanged(int c, int y, FrameFindings& findings) const noexcept {
+    if (remembered_ == nullptr || occlusion_ != nullptr) return 0;
+    const int x = c * kTileWidth;
+    const Pixel<type>* const old = pixels_of<type>(state_.colour, x, y);
+    return ingest_.unchanged(x, y, grid_.width / kTileWidth - c, old, &state_.index[position(grid_, x, y)],
+                             *remembered_, findings);
+  }
+
   template <typename Take>
   std::uint64_t segment(int x, int y, int n, int& max_index, TileRow& row, const Take& take) const {
     std::int16_t index[kTileWidth];

@@ -46,6 +46,25 @@ SegmentDifference SegmentIngest<type>::compare(int x, int y, int n, const Pixel<
 }
 
 template <SampleType type>
+int SegmentIngest<type>::unchanged(int x, int y, int most, const Pixel<type>* old_colours,
+                                   const std::int16_t* old_index, const RememberedDepths& remembered,
+                                   FrameFindings& findings) const noexcept {
+  const int known = remembered.known_from(x, y, most);
+  if (known == 0) return 0;
+  const SegmentPair<type> first{depths(x, y), colours(x, y), old_colours,
+                                old_index,    kTileWidth,    remembered.known(x, y)};
+  const int unchanged = unchanged_segments<type>(first, known);
+  extend_content(x, y, unchanged * kTileWidth, findings);
+  for (int s = 0; s < unchanged; ++s) {
+    const int at = s * kTileWidth;
+    const SegmentFindings segment = remembered.findings(x + at, y);
+    findings.coc_clamped += segment.clamped;
+    raise_content_index(x + at, y, kTileWidth, segment.largest, old_index + at, findings);
+  }
+  return unchanged;
+}
+
+template <SampleType type>
 void SegmentIngest<type>::hold_out(int x, int y, int n, std::int16_t* indices) const noexcept {
   const float* mask = frame_.mask.row(window_.y0 + y) + x;
   for (int i = 0; i < n; ++i) indices[i] = is_held_out(mask[i]) ? kHeldOut : indices[i];
@@ -56,7 +75,8 @@ void SegmentIngest<type>::add(int x, int y, int n, const SegmentFindings& segmen
                               FrameFindings& findings) const noexcept {
   findings.coc_clamped += segment.clamped;
   if (segment.suspect) count_suspects(x, y, n, findings);
-  content(x, y, n, segment.largest, indices, findings);
+  extend_content(x, y, n, findings);
+  raise_content_index(x, y, n, segment.largest, indices, findings);
 }
 
 template <SampleType type>
@@ -76,18 +96,19 @@ bool SegmentIngest<type>::has_content(int x, int y) const noexcept {
 }
 
 template <SampleType type>
-void SegmentIngest<type>::content(int x, int y, int n, int largest, const std::int16_t* indices,
-                                  FrameFindings& findings) const noexcept {
+void SegmentIngest<type>::extend_content(int x, int y, int n, FrameFindings& findings) const noexcept {
   Window& bounds = findings.content;
-  // Where neither the bounds nor the largest index can grow there is nothing to look for.
-  const bool inside = x >= bounds.x0 && x + n <= bounds.x1 && y >= bounds.y0 && y < bounds.y1;
-  if (!inside) {
-    int first = 0, last = n - 1;
-    while (first <= last && !has_content(x + first, y)) ++first;
-    if (first > last) return;
-    while (!has_content(x + last, y)) --last;
-    bounds = unite(bounds, {x + first, y, x + last + 1, y + 1});
-  }
+  if (x >= bounds.x0 && x + n <= bounds.x1 && y >= bounds.y0 && y < bounds.y1) return;
+  int first = 0, last = n - 1;
+  while (first <= last && !has_content(x + first, y)) ++first;
+  if (first > last) return;
+  while (!has_content(x + last, y)) --last;
+  bounds = unite(bounds, {x + first, y, x + last + 1, y + 1});
+}
+
+template <SampleType type>
+void SegmentIngest<type>::raise_content_index(int x, int y, int n, int largest, const std::int16_t* indices,
+                                              FrameFindings& findings) const noexcept {
   if (largest <= findings.content_index) return;
   for (int i = 0; i < n; ++i) {
     const int index = reach_index(indices[i]);

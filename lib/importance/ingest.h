@@ -51,6 +51,11 @@ class SegmentIngest {
   SegmentDifference compare(int x, int y, int n, const Pixel<type>* old_colours, const std::int16_t* old_index,
                             RememberedDepths* remembered, std::int16_t* out, FrameFindings& findings) const noexcept;
 
+  // How many whole rows of tiles from (x, y) on, `most` at most, are as remembered and committed, bit for bit. Adds
+  // what there is to find in them.
+  int unchanged(int x, int y, int most, const Pixel<type>* old_colours, const std::int16_t* old_index,
+                const RememberedDepths& remembered, FrameFindings& findings) const noexcept;
+
   // Sanitised colours; counts repairs. Returns whether there were none.
   bool sanitised(int x, int y, int n, Pixel<type>* out, FrameFindings& findings) const noexcept {
     const Pixel<type>* in = colours(x, y);
@@ -67,7 +72,10 @@ class SegmentIngest {
   void hold_out(int x, int y, int n, std::int16_t* indices) const noexcept;
   void add(int x, int y, int n, const SegmentFindings& segment, const std::int16_t* indices,
            FrameFindings& findings) const noexcept;
-  void content(int x, int y, int n, int largest, const std::int16_t* indices, FrameFindings& findings) const noexcept;
+  void extend_content(int x, int y, int n, FrameFindings& findings) const noexcept;
+  // `largest`: no |index| of the n is larger.
+  void raise_content_index(int x, int y, int n, int largest, const std::int16_t* indices,
+                           FrameFindings& findings) const noexcept;
   bool has_content(int x, int y) const noexcept;
   void count_suspects(int x, int y, int n, FrameFindings& findings) const noexcept;
 

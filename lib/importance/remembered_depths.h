@@ -25,6 +25,13 @@ class RememberedDepths {
 
   // The depths of that row of a tile whose indices the committed ones are; null if they are not known.
   const float* known(int x, int y) const noexcept { return at(x, y).lens == lens_ ? depth(x, y) : nullptr; }
+  // How many rows of tiles from there on, `most` at most, are known.
+  int known_from(int x, int y, int most) const noexcept {
+    const Segment* const segment = &at(x, y);
+    int n = 0;
+    while (n < most && segment[n].lens == lens_) ++n;
+    return n;
+  }
   // What was found in them when they became known.
   SegmentFindings findings(int x, int y) const noexcept { return {at(x, y).clamped, at(x, y).largest, false}; }
 

@@ -111,6 +111,19 @@ HWY_INLINE bool Equal(const void* a, const void* b, int bytes) {
   return equal;
 }
 
+// Bits in which two runs of `bytes` bytes, a multiple of every vector's length, differ, put together in one vector.
+template <int bytes, class D = hn::ScalableTag<std::uint8_t>>
+HWY_INLINE hn::Vec<D> Difference(const void* a, const void* b) {
+  const D d;
+  const auto* const p = static_cast<const std::uint8_t*>(a);
+  const auto* const q = static_cast<const std::uint8_t*>(b);
+  auto difference = hn::Zero(d);
+  for (int i = 0; i < bytes; i += static_cast<int>(hn::Lanes(d))) {
+    difference = hn::Or(difference, hn::Xor(hn::LoadU(d, p + i), hn::LoadU(d, q + i)));
+  }
+  return difference;
+}
+
 // Bit i: a[i] != b[i].
 template <class T>
 HWY_INLINE std::uint64_t Differing(const T* a, const T* b, int n) {
@@ -145,7 +158,7 @@ HWY_INLINE std::uint64_t DifferingPixels(const Pixel<SampleType::float32>* a, co
 // which processors fetch lines by twos.
 template <typename Value>
 HWY_INLINE void Prefetch(const Value* segment) {
-  prefetch(segment + 2 * kTileWidth, kTileWidth * sizeof *segment, 2 * kCacheLine);
+  prefetch(segment + 4 * kTileWidth, kTileWidth * sizeof *segment, 2 * kCacheLine);
 }
 
 template <SampleType type>
@@ -182,6 +195,26 @@ SegmentFindings CompareFloat(const DepthToIndex& to_index, const SegmentPair<Sam
   return Compare(to_index, pair, index, difference);
 }
 
+template <SampleType type>
+HWY_INLINE int Unchanged(const SegmentPair<type>& first, int count) {
+  const hn::ScalableTag<std::uint8_t> d;
+  constexpr int colour_bytes = kTileWidth * sizeof *first.colours, depth_bytes = kTileWidth * sizeof *first.depth;
+  for (int s = 0; s < count; ++s) {
+    const int at = s * kTileWidth;
+    Prefetch(first.colours + at);
+    Prefetch(first.old_colours + at);
+    Prefetch(first.depth + at);
+    Prefetch(first.known_depth + at);
+    const auto difference = hn::Or(Difference<colour_bytes>(first.colours + at, first.old_colours + at),
+                                   Difference<depth_bytes>(first.depth + at, first.known_depth + at));
+    if (!hn::AllTrue(d, hn::Eq(difference, hn::Zero(d)))) return s;
+  }
+  return count;
+}
+
+int UnchangedHalf(const SegmentPair<SampleType::half>& first, int count) { return Unchanged(first, count); }
+int UnchangedFloat(const SegmentPair<SampleType::float32>& first, int count) { return Unchanged(first, count); }
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace pullfocus
@@ -193,6 +226,8 @@ namespace pullfocus {
 HWY_EXPORT(SignedIndices);
 HWY_EXPORT(CompareHalf);
 HWY_EXPORT(CompareFloat);
+HWY_EXPORT(UnchangedHalf);
+HWY_EXPORT(UnchangedFloat);
 
 SegmentFindings signed_indices(const DepthToIndex& to_index, const float* depth, int n, std::int16_t* index) noexcept {
   return HWY_DYNAMIC_DISPATCH(SignedIndices)(to_index, depth, n, index);
@@ -208,10 +243,21 @@ SegmentFindings compare(const DepthToIndex& to_index, const SegmentPair<type>& p
   }
 }
 
+template <SampleType type>
+int unchanged_segments(const SegmentPair<type>& first, int count) noexcept {
+  if constexpr (type == SampleType::half) {
+    return HWY_DYNAMIC_DISPATCH(UnchangedHalf)(first, count);
+  } else {
+    return HWY_DYNAMIC_DISPATCH(UnchangedFloat)(first, count);
+  }
+}
+
 template SegmentFindings compare(const DepthToIndex&, const SegmentPair<SampleType::half>&, std::int16_t*,
                                  SegmentDifference&) noexcept;
 template SegmentFindings compare(const DepthToIndex&, const SegmentPair<SampleType::float32>&, std::int16_t*,
                                  SegmentDifference&) noexcept;
+template int unchanged_segments(const SegmentPair<SampleType::half>&, int) noexcept;
+template int unchanged_segments(const SegmentPair<SampleType::float32>&, int) noexcept;
 
 }  // namespace pullfocus
 #endif

@@ -59,4 +59,9 @@ template <SampleType type>
 SegmentFindings compare(const DepthToIndex& to_index, const SegmentPair<type>& pair, std::int16_t* index,
                         SegmentDifference& difference) noexcept;
 
+// `count` whole rows of tiles side by side, the first of which is given, all depths known: how many from the left on
+// have their known depths and their committed colours, bit for bit.
+template <SampleType type>
+int unchanged_segments(const SegmentPair<type>& first, int count) noexcept;
+
 }  // namespace pullfocus

@@ -61,6 +61,17 @@ BENCHMARK_CAPTURE(detect_tile_row, known, false, true);
 BENCHMARK_CAPTURE(detect_tile_row, unchanged, false, false);
 BENCHMARK_CAPTURE(detect_tile_row, changed, true, false);
 
+// As many tile rows side by side as a picture of 1920 columns has, nothing changed, all depths known.
+void detect_unchanged_row(benchmark::State& state) {
+  constexpr int count = 1920 / kTileWidth;
+  const Frame frame = noise(count * kTileWidth, 1), committed = frame;
+  const SegmentPair<SampleType::half> first{frame.depth.row(0), row_of(frame, 0),      row_of(committed, 0), nullptr,
+                                            kTileWidth,         committed.depth.row(0)};
+  for (auto _ : state) benchmark::DoNotOptimize(unchanged_segments<SampleType::half>(first, count));
+  state.SetItemsProcessed(state.iterations() * count * kTileWidth);
+}
+BENCHMARK(detect_unchanged_row);
+
 void coc_of_tile_row(benchmark::State& state) {
   const Frame frame = noise(kTileWidth, 1);
   const DepthToIndex to_index(kPlanar, discs().coc());

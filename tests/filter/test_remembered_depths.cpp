@@ -82,12 +82,14 @@ class StillShot {
 
   CocFunction lens() { return test::random_lens(shot_.random(), kLargest); }
 
+  // By so little that their indices stay, or so much that only their keys in bitmaps are others.
   void nudge() {
     const Window& w = frame_.window();
     for (int i = 0; i < 8; ++i) {
       const int x = w.x0 + static_cast<int>(random()() % static_cast<unsigned>(w.width()));
       const int y = w.y0 + static_cast<int>(random()() % static_cast<unsigned>(w.height()));
-      frame_.depth.at(x, y) = std::nextafter(frame_.depth.at(x, y), 1e9f);
+      float& depth = frame_.depth.at(x, y);
+      depth = random()() % 2 ? std::nextafter(depth, 1e9f) : depth * 1.01f;
     }
   }
 
@@ -101,7 +103,7 @@ class RememberingDepths : public testing::TestWithParam<unsigned> {};
 TEST_P(RememberingDepths, FindsWhatLookingAtAllOfThemFinds) {
   const unsigned seed = GetParam();
   const Case c = case_for(seed);
-  const Window window{-5, 3, 130, 36};
+  const Window window{-5, 3, 330, 36};
   FilterOptions options = c.options;
   IncrementalFilter filter(window, options);
   LinearFilter linear(window, options);
@@ -138,6 +140,25 @@ TEST_P(RememberingDepths, FindsWhatLookingAtAllOfThemFinds) {
 }
 INSTANTIATE_TEST_SUITE_P(Shots, RememberingDepths, testing::Range(0u, 28u));
 
+TEST(RememberingDepths, KeepsHowFarContentReaches) {
+  const Window window{0, 0, 330, 40};
+  Frame frame{ColourImage(window, SampleType::half), Plane(window, 1e10f), true};
+  for (int y = 0; y < 20; ++y) {  // each row reaches farther than the one above, in focus
+    for (int x = 0; x < 30 + 10 * y; ++x) frame.depth.at(x, y) = 2;
+  }
+  frame.depth.at(40, 15) = 0.5f;  // but for one pixel inside
+  const CocFunction coc{DepthKind::planar, 10, 0.5f};
+  FilterOptions options;
+  options.kernel.max_coc_px = kLargest;
+  IncrementalFilter filter(window, options);
+  LinearFilter linear(window, options);
+  linear.filter(frame, coc);
+  for (int round = 0; round < 4; ++round) {
+    filter.filter(frame, coc);
+    EXPECT_EQ(filter.result_window(), linear.result_window()) << "round " << round;
+  }
+}
+
 constexpr TileGrid kGrid{100, 3};
 const CocFunction kLens{DepthKind::planar, 10, 0.5f};
 const std::vector<float> kDepths(64, 3.f);
@@ -161,6 +182,19 @@ TEST(RememberedDepths, AreThoseOfSegmentsWithoutAnyChange) {
   EXPECT_EQ(depths.findings(0, 1).largest, 7);
   EXPECT_EQ(depths.known(64, 1), nullptr);
   EXPECT_EQ(depths.known(0, 2), nullptr);
+}
+
+TEST(RememberedDepths, AreCountedUpToTheFirstUnknownSegment) {
+  RememberedDepths depths = steady();
+  EXPECT_EQ(depths.known_from(0, 1, 2), 0);
+  depths.take(kDepths, 0, 1, {}, kFindings);
+  EXPECT_EQ(depths.known_from(0, 1, 2), 1);
+  EXPECT_EQ(depths.known_from(64, 1, 1), 0);
+  depths.take(kDepths, 64, 1, {}, kFindings);
+  EXPECT_EQ(depths.known_from(0, 1, 2), 2);
+  EXPECT_EQ(depths.known_from(0, 1, 1), 1);
+  EXPECT_EQ(depths.known_from(0, 1, 0), 0);
+  EXPECT_EQ(depths.known_from(64, 1, 1), 1);
 }
 
 TEST(RememberedDepths, AreNotThoseOfChangedColoursOrSuspects) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -163,6 +164,42 @@ TEST(Segment, KnownDepthsAreThoseOfEqualBits) {
       std::uint64_t differ = 0;
       for (int i = 0; i < n; ++i) differ |= std::uint64_t{expected[i] != old_index[i]} << i;
       ASSERT_EQ(difference.index, differ);
+    }
+  });
+}
+
+TEST(Segment, UnchangedOnesEndBeforeTheFirstBitThatDiffers) {
+  on_every_target([] {
+    std::mt19937 random(5);
+    for (const SampleType sample : types) {
+      dispatch(sample, [&]<SampleType type>() {
+        for (int round = 0; round < 2000; ++round) {
+          const int count = 1 + round % 5;
+          const auto pixels = static_cast<std::size_t>(count * kTileWidth);
+          std::vector<float> depth(pixels), known(pixels);
+          std::vector<Pixel<type>> colours(pixels), old(pixels);
+          for (std::size_t i = 0; i < pixels; ++i) {
+            known[i] = depth[i] = random_depth(random, true);
+            for (auto& bits : colours[i].rgba) bits = static_cast<std::uint16_t>(random());
+            old[i] = colours[i];
+          }
+          std::size_t first = pixels;
+          for (int k = round % 4; k > 0; --k) {
+            const std::size_t i = random() % pixels;
+            auto& sample_of = old[i].rgba[random() % 4];
+            using Bits = std::remove_reference_t<decltype(sample_of)>;
+            if (random() % 2) {
+              sample_of = static_cast<Bits>(sample_of ^ (Bits{1} << random() % (8 * sizeof sample_of)));
+            } else {
+              known[i] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(known[i]) ^ (1u << random() % 32));
+            }
+            const bool differs = !(old[i] == colours[i]) || std::memcmp(&known[i], &depth[i], sizeof depth[i]) != 0;
+            if (differs) first = std::min(first, i);
+          }
+          const SegmentPair<type> pair{depth.data(), colours.data(), old.data(), nullptr, kTileWidth, known.data()};
+          ASSERT_EQ(unchanged_segments<type>(pair, count), static_cast<int>(first / kTileWidth));
+        }
+      });
     }
   });
 }
