@@ -13,11 +13,9 @@ constexpr std::size_t kBeyondCaches = std::size_t{1} << 25;  // bytes
 
 }  // namespace
 
-LayerSums::Tile LayerSums::zeros() const {
-  Tile tile(CacheAligned<Accumulator>().allocate(tile_words()));
-  std::fill_n(tile.get(), tile_words(), Accumulator{0});
-  return tile;
-}
+LayerSums::Tile LayerSums::new_tile() const { return Tile(CacheAligned<Accumulator>().allocate(tile_words())); }
+
+void LayerSums::clear(const Tile& tile) const noexcept { std::fill_n(tile.get(), tile_words(), Accumulator{0}); }
 
 void LayerSums::reset(int width, int height, int layers, int lanes) {
   grid_ = {width, height};
@@ -36,12 +34,13 @@ void LayerSums::make_room(int layer, const Window& reached) {
       Tile& tile = tiles_[index(layer, x, y)];
       if (tile) continue;
       if (spare_.empty()) {
-        tile = zeros();
+        tile = new_tile();
       } else {
         tile = std::move(spare_.back());
         spare_.pop_back();
-        if (!anew_) std::fill_n(tile.get(), tile_words(), Accumulator{0});
       }
+      // Rows that are replaced touch new memory first: several threads do, and once.
+      if (!anew_) clear(tile);
     }
   }
 }
@@ -104,7 +103,7 @@ void LayerSums::widen() {
   spare_.clear();
   for (std::size_t t = 0; t < narrow.size(); ++t) {
     if (!narrow[t]) continue;
-    tiles_[t] = zeros();
+    tiles_[t] = new_tile();
     for (std::size_t p = 0; p < pixels; ++p) {
       const Accumulator* in = &narrow[t][p * kOpaqueLanes];
       Accumulator* out = &tiles_[t][p * kAlphaLanes];

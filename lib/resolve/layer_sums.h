@@ -56,7 +56,8 @@ class LayerSums {
     void operator()(Accumulator* values) const noexcept { CacheAligned<Accumulator>().deallocate(values, 0); }
   };
   using Tile = std::unique_ptr<Accumulator[], Delete>;
-  Tile zeros() const;
+  Tile new_tile() const;  // of any content
+  void clear(const Tile& tile) const noexcept;
   std::size_t tile_words() const noexcept {
     return static_cast<std::size_t>(kTileWidth * kTileHeight) * static_cast<std::size_t>(lanes_);
   }

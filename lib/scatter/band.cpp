@@ -6,8 +6,9 @@ namespace pullfocus {
 
 namespace {
 
-constexpr int kMostHeight = 128, kLeastOfCaches = 64;  // however few rows the caches hold
-constexpr std::size_t kBandBytes = 11 << 19;           // of sums: a thread's part of caches that several share
+constexpr int kLeastHeight = 8, kMostHeight = 128;
+constexpr int kLeastOfCaches = 64;            // rows of all layers, however few the caches hold
+constexpr std::size_t kBandBytes = 11 << 19;  // of sums: a thread's part of caches that several share
 
 // An odd number of cache lines a row keeps the rows of one kernel out of the same cache sets.
 std::size_t stride_of(const BandLayout& layout) noexcept {
@@ -18,13 +19,14 @@ std::size_t stride_of(const BandLayout& layout) noexcept {
 
 }  // namespace
 
-int band_height(int span, int reach, int threads, const BandLayout& layout) noexcept {
+int band_height(int span, int reach, int layers, int threads, const BandLayout& layout) noexcept {
   const auto up = [](int a, int b) { return (a + b - 1) / b; };
-  const auto in_caches = static_cast<int>(kBandBytes / (stride_of(layout) * sizeof(Accumulator)));
-  const int most = std::clamp(in_caches, std::clamp(reach * 5 / 2, kLeastOfCaches, kMostHeight), kMostHeight);
+  const auto in_caches = static_cast<int>(kBandBytes / (stride_of(layout) * sizeof(Accumulator))) / layers;
+  const int least = std::clamp(reach * 5 / 2, std::max(kLeastOfCaches / layers, kLeastHeight), kMostHeight);
+  const int most = std::clamp(in_caches, least, kMostHeight);
   const int quarter = up(span, 4 * threads), eighth = up(span, 8 * threads);
   const int even = threads == 1 ? quarter : std::max(eighth, std::min(2 * reach, quarter));
-  const int high = std::clamp(even, std::clamp(reach / 2, 8, 64), most);
+  const int high = std::clamp(even, std::clamp(reach / 2, kLeastHeight, 64), most);
   return up(span, up(span, high * threads) * threads);
 }
 

@@ -36,10 +36,10 @@ struct BandLayout {
   bool fold = true;  // what falls on the pads comes back mirrored; else it is dropped
 };
 
-// Rows of a band where kernels of up to `reach` rows write `span` of them with so many threads. Low bands stay in the
-// caches and feed all threads evenly, but the lower they are, the more of them visit a source. There are as many for
-// each thread. Measured: docs/benchmarks.md.
-int band_height(int span, int reach, int threads, const BandLayout& layout) noexcept;
+// Rows of a band where kernels of up to `reach` rows write `span` of them, with so many layers and threads. Low bands
+// stay in the caches, those of all layers together, and feed all threads evenly, but the lower they are, the more of
+// them visit a source. There are as many for each thread. Measured: docs/benchmarks.md.
+int band_height(int span, int reach, int layers, int threads, const BandLayout& layout) noexcept;
 
 // Columns [x0, x1), x0 < x1.
 struct ColumnSpan {

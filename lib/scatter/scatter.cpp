@@ -227,7 +227,7 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
   const int pad = (fold ? 1 : 2) * reach_x(largest) + kBlockColumns + BlockPlan::kMostSpread;
   const BandLayout layout{grid_.width, grid_.height, pad, lanes, fold};
 
-  const int band_rows = band_height(y_last - y_first, reach_y(largest), threads, layout);
+  const int band_rows = band_height(y_last - y_first, reach_y(largest), static_cast<int>(work.size()), threads, layout);
   const int band_count = (y_last - y_first + band_rows - 1) / band_rows;
   const bool by_columns = reach_y(largest) >= kReachOfColumns;
   std::vector<std::vector<const TileWork*>> tiles;

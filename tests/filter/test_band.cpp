@@ -37,11 +37,13 @@ TEST(BandHeight, IsAnEqualShareOfTheRowsForEveryThreadAndRound) {
     for (int threads = 1; threads <= 9; ++threads) {
       for (int span = 1; span <= 5000; span += 1 + span / 7) {
         for (const int width : {1, 1920, 100000}) {
-          const int height = band_height(span, reach, threads, {width, span}), bands = (span + height - 1) / height;
-          ASSERT_GE(height, 1);
-          ASSERT_LE(height, 128);
-          const int rounds = (bands + threads - 1) / threads;
-          ASSERT_LE(height, (span + rounds * threads - 1) / (rounds * threads)) << span << " rows, " << threads;
+          for (const int layers : {1, 3, 16}) {
+            const int height = band_height(span, reach, layers, threads, {width, span});
+            const int bands = (span + height - 1) / height, rounds = (bands + threads - 1) / threads;
+            ASSERT_GE(height, 1);
+            ASSERT_LE(height, 128);
+            ASSERT_LE(height, (span + rounds * threads - 1) / (rounds * threads)) << span << " rows, " << threads;
+          }
         }
       }
     }
@@ -49,7 +51,9 @@ TEST(BandHeight, IsAnEqualShareOfTheRowsForEveryThreadAndRound) {
 }
 
 TEST(BandHeight, FallsWithTheBytesOfARowUnlessItIsLowOrKernelsReachFar) {
-  const auto height = [](int reach, const BandLayout& layout) { return band_height(layout.height, reach, 1, layout); };
+  const auto height = [](int reach, const BandLayout& layout) {
+    return band_height(layout.height, reach, 1, 1, layout);
+  };
   const BandLayout hd{1920, 12800}, uhd{3840, 12800}, with_alpha{1920, 12800, 0, kAlphaLanes};
   EXPECT_LT(height(5, hd), 128);
   EXPECT_LT(height(5, uhd), height(5, hd));
@@ -59,8 +63,19 @@ TEST(BandHeight, FallsWithTheBytesOfARowUnlessItIsLowOrKernelsReachFar) {
   EXPECT_GE(height(40, uhd), 90);
 }
 
+TEST(BandHeight, LeavesRoomForTheSumsOfAllLayersUnlessKernelsReachFar) {
+  const BandLayout hd{1920, 12800};
+  const auto height = [&](int reach, int layers) { return band_height(hd.height, reach, layers, 1, hd); };
+  EXPECT_LE(2 * height(5, 2), height(5, 1) + 1);
+  EXPECT_LE(3 * height(5, 3), height(5, 1) + 2);
+  EXPECT_LE(height(5, 16), 12);
+  EXPECT_GE(height(5, 16), 8);
+  EXPECT_GE(height(20, 16), 45);
+  EXPECT_EQ(height(40, 16), height(40, 1));
+}
+
 TEST(BandHeight, StaysLowWhereFewRowsAreWritten) {
-  for (int threads = 1; threads <= 9; ++threads) EXPECT_LE(band_height(100, 10, threads, {256, 256}), 25) << threads;
+  for (int threads = 1; threads <= 9; ++threads) EXPECT_LE(band_height(100, 10, 1, threads, {256, 256}), 25) << threads;
 }
 
 TEST(Mirror, EqualsWalkingToAndFroBetweenTheBorders) {
