@@ -7,6 +7,7 @@
 #include <string>
 
 #include "image/error.h"
+#include "scatter/index_row.h"
 
 namespace pullfocus {
 
@@ -46,36 +47,40 @@ int Layers::near() const noexcept {
 
 namespace {
 
+// The part of pixels `mask` of row i of a tile, whose indices begin at `index`, in every layer.
+void split_row(const std::int16_t* index, std::uint64_t mask, int i, const Layers& layers, TileWork* parts) {
+  const IndexBounds bounds = bounds_of_tile_row(index);
+  for (int l = 0; l < layers.count(); ++l) {
+    const Layers::Range range = layers.range(l);
+    if (range.first > bounds.most || range.last < bounds.least) continue;
+    const std::uint64_t in_layer = mask & within(index, range.first, range.last);
+    if (in_layer == 0) continue;
+    parts[l].mask.rows[i] |= in_layer;
+    parts[l].max_index = std::max(parts[l].max_index, largest_of(index, in_layer));
+  }
+}
+
 // One tile's part in every layer.
 void split(const TileWork& work, const TileGrid& grid, const Layers& layers, const SourceState& state,
            const std::int16_t* pending, TileWork* parts) {
   for (int l = 0; l < layers.count(); ++l) parts[l] = {work.tile, 0, {}};
-  for (int i = 0; i < kTileHeight; ++i) {
-    if (work.mask.rows[i] == 0) continue;
-    const std::size_t row = static_cast<std::size_t>(grid.y(work.tile) + i) * static_cast<std::size_t>(grid.width) +
-                            static_cast<std::size_t>(grid.x(work.tile));
-    if (work.mask.rows[i] == first_pixels(kTileWidth)) {  // mostly of one layer
-      IndexBounds bounds = bounds_of_tile_row(&state.index[row]);
-      if (pending != nullptr) bounds.widen(bounds_of_tile_row(&pending[row]));
-      if (layers.share_one(bounds.least, bounds.most)) {
-        TileWork& part = parts[layers.of(bounds.most)];
-        part.mask.rows[i] = work.mask.rows[i];
-        part.max_index = std::max(part.max_index, bounds.largest());
-        continue;
+  const int n = grid.tile_width(work.tile);
+  const auto split_rows = [&](const std::int16_t* indices) {
+    std::int16_t padded[kTileWidth] = {};  // where the tile reaches beyond the picture, no pixel is in its mask
+    for (int i = 0; i < kTileHeight; ++i) {
+      if (work.mask.rows[i] == 0) continue;
+      const std::int16_t* index =
+          indices + static_cast<std::size_t>(grid.y(work.tile) + i) * static_cast<std::size_t>(grid.width) +
+          static_cast<std::size_t>(grid.x(work.tile));
+      if (n < kTileWidth) {
+        std::copy_n(index, n, padded);
+        index = padded;
       }
+      split_row(index, work.mask.rows[i], i, layers, parts);
     }
-    for_each_pixel(work.mask.rows[i], [&](int p) {
-      const auto add = [&](std::int16_t index) {
-        if (!is_source(index)) return;
-        TileWork& part = parts[layers.of(index)];
-        part.mask.rows[i] |= std::uint64_t{1} << p;
-        part.max_index = std::max(part.max_index, reach_index(index));
-      };
-      const std::size_t at = row + static_cast<std::size_t>(p);
-      add(state.index[at]);
-      if (pending != nullptr) add(pending[at]);
-    });
-  }
+  };
+  split_rows(state.index.data());
+  if (pending != nullptr) split_rows(pending);
 }
 
 }  // namespace

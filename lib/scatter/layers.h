@@ -23,8 +23,6 @@ class Layers {
   int count() const noexcept { return static_cast<int>(ranges_.size()); }
   int near() const noexcept;  // layers, from the nearest on, whose sources are all in front of focus
   int of(int signed_index) const noexcept { return of_[static_cast<std::size_t>(signed_index + offset_)]; }
-  // Whether all sources with indices from `least` to `most` are in one layer; not if `least` is no index.
-  bool share_one(int least, int most) const noexcept { return least >= -offset_ && of(least) == of(most); }
 
   struct Range {
     std::int16_t first, last;  // signed indices; empty if first > last

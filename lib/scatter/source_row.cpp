@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "image/sane.h"
+#include "scatter/index_row.h"
 #include "simd/prefetch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -90,14 +91,6 @@ std::uint64_t Near(const std::int16_t* a, const std::int16_t* b, std::int16_t mo
   });
 }
 
-// Bit i: first <= a[i] <= last, of kTileWidth values.
-std::uint64_t Within(const std::int16_t* a, std::int16_t first, std::int16_t last) {
-  return BitsOfRow([&](auto d, int i) HWY_ATTR {
-    const auto v = hn::LoadU(d, a + i);
-    return hn::Not(hn::Or(hn::Lt(v, hn::Set(d, first)), hn::Gt(v, hn::Set(d, last))));
-  });
-}
-
 void OpaqueHalf(const Pixel<SampleType::half>* pixels, int n, double sign, double* out) {
   Lanes<kOpaqueLanes>(pixels, n, sign, out);
 }
@@ -123,7 +116,6 @@ namespace {
 
 HWY_EXPORT(Equal);
 HWY_EXPORT(Near);
-HWY_EXPORT(Within);
 HWY_EXPORT(OpaqueHalf);
 HWY_EXPORT(OpaqueFloat);
 HWY_EXPORT(AlphaHalf);
@@ -188,11 +180,10 @@ void load_indices(const std::int16_t* from, int n, std::int16_t* out) noexcept {
 
 // Of a row of indices: those that count.
 std::uint64_t counted(const std::int16_t* index, const Sources& sources) noexcept {
-  const auto within = [&](int first, int last) {
-    return HWY_DYNAMIC_DISPATCH(Within)(index, static_cast<std::int16_t>(first), static_cast<std::int16_t>(last));
-  };
-  const std::uint64_t all = within(sources.range.first, sources.range.last);
-  return sources.least > 0 ? all & ~within(1 - sources.least, sources.least - 1) : all;
+  const std::uint64_t all = within(index, sources.range.first, sources.range.last);
+  if (sources.least == 0) return all;
+  const auto most = static_cast<std::int16_t>(sources.least - 1);
+  return all & ~within(index, static_cast<std::int16_t>(-most), most);
 }
 
 template <int lanes, SampleType type>

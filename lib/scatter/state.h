@@ -41,10 +41,6 @@ struct IndexBounds {
   int least, most;
 
   int largest() const noexcept { return std::max(std::abs(least), std::abs(most)); }  // |index|
-  void widen(const IndexBounds& other) noexcept {
-    least = std::min(least, other.least);
-    most = std::max(most, other.most);
-  }
 };
 
 // Of kTileWidth indices.

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <random>
 
 #include "camera/usage.h"
@@ -46,6 +48,79 @@ TEST(LayersOf, SplitAtTheirBordersAndTheBorderBelongsToTheSideNearerToFocus) {
   for (int i = -coc.size() + 1; i < coc.size(); ++i) {
     const auto range = layers.range(layers.of(i));
     EXPECT_TRUE(i >= range.first && i <= range.last);
+  }
+}
+
+// Indices of smooth stretches and of noise, some of pixels that are no sources.
+std::vector<std::int16_t> random_indices(std::mt19937& random, std::size_t n, int most) {
+  std::vector<std::int16_t> indices(n);
+  const bool noise = random() % 2, holes = random() % 2;
+  const auto any = [&] { return static_cast<std::int16_t>(static_cast<int>(random() % (2u * most + 1)) - most); };
+  std::int16_t at = any();
+  for (std::int16_t& index : indices) {
+    if (noise || random() % 50 == 0) at = any();
+    index = holes && random() % 9 == 0 ? (random() % 2 ? kHeldOut : kNeverCommitted) : at;
+  }
+  return indices;
+}
+
+TEST(ByLayer, GivesEveryPixelToTheLayersOfItsOldAndNewIndex) {
+  const CocTable coc(0, 20);
+  std::mt19937 random(11);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<double> borders;
+    for (double at = -20; random() % 8 != 0 && borders.size() < Layers::kMostBorders;) {
+      borders.push_back(at += 0.5 + static_cast<double>(random() % 12));
+    }
+    const Layers layers(coc, borders);
+    const Window window{0, 0, 1 + static_cast<int>(random() % 200), 1 + static_cast<int>(random() % 40)};
+    SourceState state;
+    state.reset(window, SampleType::half);
+    state.index = random_indices(random, window.pixels(), coc.size() - 1);
+    const std::vector<std::int16_t> pending = random_indices(random, window.pixels(), coc.size() - 1);
+    const bool moves = round % 2;
+    const TileGrid grid{window.width(), window.height()};
+    std::vector<TileWork> tiles;
+    for (int tile = 0; tile < grid.count(); ++tile) {
+      TileWork work{tile, 0, {}};
+      for (int i = 0; i < grid.tile_height(tile); ++i) {
+        const std::uint64_t all = first_pixels(grid.tile_width(tile));
+        work.mask.rows[i] = random() % 3 ? all : all & (std::uint64_t{random()} << 32 | random());
+      }
+      if (work.mask.any()) tiles.push_back(work);
+    }
+    std::map<std::pair<int, int>, TileWork> expected;  // by layer and tile
+    for (const TileWork& work : tiles) {
+      for_each_tile_pixel(grid, work, [&](int i, int p, int x, int y) {
+        const auto at = static_cast<std::size_t>(y * window.width() + x);
+        const auto add = [&](std::int16_t index) {
+          if (!is_source(index)) return;
+          TileWork& part = expected.try_emplace({layers.of(index), work.tile}, TileWork{work.tile, 0, {}}).first->second;
+          part.mask.rows[i] |= std::uint64_t{1} << p;
+          part.max_index = std::max(part.max_index, std::abs(int{index}));
+        };
+        add(state.index[at]);
+        if (moves) add(pending[at]);
+      });
+    }
+    std::size_t parts = 0;
+    int before = -1;
+    for (const LayerWork& layer : by_layer(tiles, layers, state, moves ? pending.data() : nullptr)) {
+      ASSERT_GT(layer.layer, before);
+      before = layer.layer;
+      ASSERT_EQ(layer.range.first, layers.range(layer.layer).first);
+      if (layers.count() == 1) continue;  // all of the tiles, as they are
+      for (const TileWork& part : layer.tiles) {
+        const auto found = expected.find({layer.layer, part.tile});
+        ASSERT_NE(found, expected.end());
+        ASSERT_TRUE(std::equal(part.mask.rows, part.mask.rows + kTileHeight, found->second.mask.rows));
+        ASSERT_EQ(part.max_index, found->second.max_index);
+        ++parts;
+      }
+    }
+    if (layers.count() > 1) {
+      ASSERT_EQ(parts, expected.size());
+    }
   }
 }
 
