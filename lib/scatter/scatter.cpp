@@ -55,14 +55,17 @@ void image_of(const SourceRow<lanes>& row, RowKind kind, int k, int width, int r
   });
 }
 
-// What write_lines() will read of a tile.
-void fetch_lines(const TileWork& work, const TileGrid& grid, int first, const Sources& sources) noexcept {
-  for (int i = first; i < first + kBlockRows; ++i) {
-    if (work.mask.rows[i] != 0) fetch_ahead(sources, grid.x(work.tile), grid.y(work.tile) + i);
-  }
-}
-
 }  // namespace
+
+std::vector<Scatter::Placed> Scatter::placed(const LayerWork& layer) const {
+  std::vector<Placed> tiles;
+  tiles.reserve(layer.tiles.size());
+  for (const TileWork& work : layer.tiles) {
+    tiles.push_back({&work, grid_.x(work.tile), grid_.y(work.tile), reach_x(work.max_index), reach_y(work.max_index),
+                     work.mask.bounds()});
+  }
+  return tiles;
+}
 
 // Kernels that are their own mirror images may fall on the pads, which are folded back in. For others this would turn
 // the light the wrong way round: there the sources are mirrored instead, and the pads are dropped.
@@ -112,17 +115,16 @@ void Scatter::write_hidden(Band& band, const Sources& sources, int x, int y, std
 
 // Of the selected pixels of a tile: those of kBlockRows rows from row `first` of the tile on.
 template <int lanes>
-void Scatter::write_lines(Band& band, const TileWork& work, int first, const Sources& sources, const BandImage& image,
+void Scatter::write_lines(Band& band, const Placed& tile, int first, const Sources& sources, const BandImage& image,
                           bool fold, Scratch& scratch) const {
-  const int x = grid_.x(work.tile), y = grid_.y(work.tile) + first;
-  const int rx = reach_x(work.max_index), ry = reach_y(work.max_index);
+  const int x = tile.x, y = tile.y + first;
   Lines<lanes>& lines = scratch.template lines<lanes>();
   std::array<bool, kBlockRows> any{};
   for (std::size_t h = 0; h < kBlockRows; ++h) {
     const int row = static_cast<int>(h);
-    const std::uint64_t mask = work.mask.rows[first + row];
+    const std::uint64_t mask = tile.work->mask.rows[first + row];
     const int away = std::max({image.y0 - (y + row), y + row - (image.y1 - 1), 0});  // from the band, in rows
-    any[h] = mask != 0 && away <= ry;
+    any[h] = mask != 0 && away <= tile.ry;
     if (!any[h]) continue;
     Sources reaching = sources;
     reaching.least = least_reaching(away);
@@ -148,7 +150,7 @@ void Scatter::write_lines(Band& band, const TileWork& work, int first, const Sou
       if (row.mask != 0) write_row(kernels_, row, at, image, band);
       row.mask = all;
       if (fold) continue;
-      write_beyond(band, row, kind, at, rx, image,
+      write_beyond(band, row, kind, at, tile.rx, image,
                    [&](const SourceRow<lanes>& beyond, bool) { write_row(kernels_, beyond, at, image, band); });
     }
   };
@@ -158,8 +160,15 @@ void Scatter::write_lines(Band& band, const TileWork& work, int first, const Sou
   write(&RowSources<lanes>::moved, RowKind::moved);
 }
 
+// What write_lines() will read of a tile.
+void Scatter::fetch_lines(const Placed& tile, int first, const Sources& sources) noexcept {
+  for (int i = first; i < first + kBlockRows; ++i) {
+    if (tile.work->mask.rows[i] != 0) fetch_ahead(sources, tile.x, tile.y + i);
+  }
+}
+
 template <int lanes>
-void Scatter::fill(Band& band, std::span<const TileWork* const> tiles, const Sources& sources, const BandLayout& layout,
+void Scatter::fill(Band& band, std::span<const Placed> tiles, const Sources& sources, const BandLayout& layout,
                    Scratch& scratch) const {
   // Every reflection of the band within reach of the image: index k counts borders crossed, downwards.
   std::vector<BandImage> images;
@@ -175,23 +184,23 @@ void Scatter::fill(Band& band, std::span<const TileWork* const> tiles, const Sou
 
   for (const BandImage& image : images) {
     for (std::size_t t = 0; t < tiles.size(); ++t) {
-      const TileWork& work = *tiles[t];
-      const int x = grid_.x(work.tile), y = grid_.y(work.tile);
-      const TileMask::Bounds part = work.mask.bounds();
-      const int rx = reach_x(work.max_index), ry = reach_y(work.max_index);
-      const int ya = std::max(image.y0, y + part.y0 - ry), yb = std::min(image.y1, y + part.y1 + ry);
+      const Placed& tile = tiles[t];
+      const int ya = std::max(image.y0, tile.y + tile.part.y0 - tile.ry);
+      const int yb = std::min(image.y1, tile.y + tile.part.y1 + tile.ry);
       if (ya >= yb) continue;
       const int row_a = image.band_row(ya), row_b = image.band_row(yb - 1);
-      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, x + part.x0 - rx, x + part.x1 + rx + 1);
-      for (int i = part.y0; i < part.y1 && sources.occlusion != nullptr; ++i) {
-        if (y + i + ry < image.y0 || y + i - ry >= image.y1) continue;
-        const std::uint64_t hidden = work.mask.rows[i] & sources.occlusion->columns(work.tile);
-        if (hidden != 0) write_hidden<lanes>(band, sources, x, y + i, hidden, rx, image, layout.fold);
+      band.mark(std::min(row_a, row_b), std::max(row_a, row_b) + 1, tile.x + tile.part.x0 - tile.rx,
+                tile.x + tile.part.x1 + tile.rx + 1);
+      for (int i = tile.part.y0; i < tile.part.y1 && sources.occlusion != nullptr; ++i) {
+        const int y = tile.y + i;
+        if (y + tile.ry < image.y0 || y - tile.ry >= image.y1) continue;
+        const std::uint64_t hidden = tile.work->mask.rows[i] & sources.occlusion->columns(tile.work->tile);
+        if (hidden != 0) write_hidden<lanes>(band, sources, tile.x, y, hidden, tile.rx, image, layout.fold);
       }
       if (!sources.is_plain) continue;
       for (int i = 0; i < kTileHeight; i += kBlockRows) {
-        if (t + 1 < tiles.size()) fetch_lines(*tiles[t + 1], grid_, i, sources);
-        write_lines<lanes>(band, work, i, sources, image, layout.fold, scratch);
+        if (t + 1 < tiles.size()) fetch_lines(tiles[t + 1], i, sources);
+        write_lines<lanes>(band, tile, i, sources, image, layout.fold, scratch);
       }
     }
   }
@@ -208,14 +217,14 @@ void Scatter::run(std::span<const TileWork> tiles, const Sources& sources, int l
 
 void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int lanes, int threads,
                   const TakeRow& take) {
+  std::vector<std::vector<Placed>> tiles;
+  for (const LayerWork& layer : work) tiles.push_back(placed(layer));
   int largest = 0, y_first = grid_.height, y_last = 0;
-  for (const LayerWork& layer : work) {
-    for (const TileWork& tile : layer.tiles) {
-      const int reach = reach_y(tile.max_index);
-      const TileMask::Bounds part = tile.mask.bounds();
-      largest = std::max(largest, tile.max_index);
-      y_first = std::min(y_first, grid_.y(tile.tile) + part.y0 - reach);
-      y_last = std::max(y_last, grid_.y(tile.tile) + part.y1 + reach);
+  for (const std::vector<Placed>& layer : tiles) {
+    for (const Placed& tile : layer) {
+      largest = std::max(largest, tile.work->max_index);
+      y_first = std::min(y_first, tile.y + tile.part.y0 - tile.ry);
+      y_last = std::max(y_last, tile.y + tile.part.y1 + tile.ry);
     }
   }
   // Mirrored rows land no farther from the border than the reach beyond it, so these bounds hold them too.
@@ -229,9 +238,13 @@ void Scatter::run(std::span<const LayerWork> work, const Sources& sources, int l
 
   const int band_rows = band_height(y_last - y_first, reach_y(largest), static_cast<int>(work.size()), threads, layout);
   const int band_count = (y_last - y_first + band_rows - 1) / band_rows;
-  const bool by_columns = reach_y(largest) >= kReachOfColumns;
-  std::vector<std::vector<const TileWork*>> tiles;
-  for (const LayerWork& layer : work) tiles.push_back(in_order(layer.tiles, grid_, by_columns));
+  // Column by column, what a column of tiles reaches of a band stays in the second cache, where large kernels reach the
+  // same accumulators from many tile rows.
+  for (std::vector<Placed>& layer : tiles) {
+    if (reach_y(largest) >= kReachOfColumns) {
+      std::stable_sort(layer.begin(), layer.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
+    }
+  }
   const auto write_band = [&](int b) {
     Scratch& scratch = scratch_.local();
     std::vector<Band>& bands = scratch.bands;

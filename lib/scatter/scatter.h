@@ -75,15 +75,25 @@ class Scatter {
     }
   };
 
+  // A tile, and what every band asks of it.
+  struct Placed {
+    const TileWork* work;
+    int x, y;               // of its corner
+    int rx, ry;             // that its kernels reach
+    TileMask::Bounds part;  // of its mask
+  };
+  std::vector<Placed> placed(const LayerWork& layer) const;  // in the layer's order
+  static void fetch_lines(const Placed& tile, int first, const Sources& sources) noexcept;
+
   static constexpr int kReachOfColumns = 32;  // rows; measured, smaller kernels are no faster column by column
 
   template <int lanes>
-  void fill(Band& band, std::span<const TileWork* const> tiles, const Sources& sources, const BandLayout& layout,
+  void fill(Band& band, std::span<const Placed> tiles, const Sources& sources, const BandLayout& layout,
             Scratch& scratch) const;
 
   template <int lanes>
-  void write_lines(Band& band, const TileWork& work, int first, const Sources& sources, const BandImage& image,
-                   bool fold, Scratch& scratch) const;
+  void write_lines(Band& band, const Placed& tile, int first, const Sources& sources, const BandImage& image, bool fold,
+                   Scratch& scratch) const;
 
   template <int lanes, typename Write>
   void write_beyond(Band& band, const SourceRow<lanes>& row, RowKind kind, int y, int reach, const BandImage& image,

@@ -1,8 +1,7 @@
 // Sources to scatter, by tile.
 #pragma once
 
-#include <span>
-#include <vector>
+#include <cstddef>
 
 #include "image/tiles.h"
 
@@ -16,9 +15,5 @@ struct TileWork {
   int max_index = 0;  // no source of the mask, old or new, has a larger |index|
   TileMask mask;
 };
-
-// The tiles as they come, row by row, or column by column: then what a column of tiles reaches of a band stays in the
-// second cache, where large kernels reach the same accumulators from many tile rows.
-std::vector<const TileWork*> in_order(std::span<const TileWork> tiles, const TileGrid& grid, bool by_columns);
 
 }  // namespace pullfocus

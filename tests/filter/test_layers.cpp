@@ -95,7 +95,8 @@ TEST(ByLayer, GivesEveryPixelToTheLayersOfItsOldAndNewIndex) {
         const auto at = static_cast<std::size_t>(y * window.width() + x);
         const auto add = [&](std::int16_t index) {
           if (!is_source(index)) return;
-          TileWork& part = expected.try_emplace({layers.of(index), work.tile}, TileWork{work.tile, 0, {}}).first->second;
+          TileWork& part =
+              expected.try_emplace({layers.of(index), work.tile}, TileWork{work.tile, 0, {}}).first->second;
           part.mask.rows[i] |= std::uint64_t{1} << p;
           part.max_index = std::max(part.max_index, std::abs(int{index}));
         };
