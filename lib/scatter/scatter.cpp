@@ -133,13 +133,15 @@ void Scatter::write_lines(Band& band, const Placed& tile, int first, const Sourc
   if (std::none_of(any.begin(), any.end(), [](bool is) { return is; })) return;
   const auto write = [&](SourceRow<lanes> RowSources<lanes>::*of_kind, RowKind kind) {
     SourceBlock<lanes> block{{}, {}, x, y};
-    int count = 0;
+    std::uint64_t columns = 0;
     for (std::size_t h = 0; h < kBlockRows; ++h) {
       block.rows[h] = &(lines[h].*of_kind);
       block.masks[h] = any[h] ? block.rows[h]->mask : 0;
-      count += std::popcount(block.masks[h]);
+      columns |= block.masks[h];
     }
-    if (count == 0) return;
+    if (columns == 0) return;
+    int count = 0;
+    for (const std::uint64_t mask : block.masks) count += std::popcount(mask);
     if (count >= kFewestInBlock) block_writer<lanes>(kind)(kernels_, block, image, band, scratch.values);
     const WriteRow<lanes> write_row = row_writer<lanes>(kind);
     for (std::size_t h = 0; h < kBlockRows; ++h) {
