@@ -65,6 +65,12 @@ HWY_INLINE void WriteLists(const EdgePlan& plan, const Accumulator* HWY_RESTRICT
   }
 }
 
+// One copy for all kinds of rows.
+template <int lanes, int width>
+HWY_NOINLINE void WriteAllLists(const EdgePlan& plan, const Accumulator* HWY_RESTRICT values, const Place& place) {
+  WriteLists<lanes, width>(plan, values, place);
+}
+
 // Where the group's kernel rows lie: in the band as they do in the kernel, since it is the source that is mirrored.
 // Empty where none does.
 HWY_INLINE Place PlaceOf(const Group& group, int radius_y, int lanes, const BandImage& image, Band& band) {
@@ -83,7 +89,7 @@ void WriteGroup(const EdgePlan& plan, const Group& group, const BandImage& image
   alignas(64) Accumulator memory[kPad + kMostValueRows * kStride<lanes, width>];
   Accumulator* const values = memory + kPad;
   ValueRows<lanes, width, kind, kStride<lanes, width>, kPad>(plan, group.plus, group.minus, group.members, values);
-  WriteLists<lanes, width>(plan, values, place);
+  WriteAllLists<lanes, width>(plan, values, place);
 }
 
 template <int lanes, int columns>
