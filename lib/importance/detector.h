@@ -58,17 +58,21 @@ class Detector {
   // returns the tile's max_index with that row in it.
   template <typename Take>
   void run(int first, TileRow& row, const Take& take) const {
-    row.tiles.resize(static_cast<std::size_t>(grid_.columns()));
-    for (int c = 0; c < grid_.columns(); ++c) row.tiles[static_cast<std::size_t>(c)].tile = first + c;
     for (int i = 0; i < grid_.tile_height(first); ++i) {
       const int y = grid_.y(first) + i;
       bool quiet = true;  // nothing changed just before
       for (int c = 0; c < grid_.columns(); ++c) {
         if (quiet) c += unchanged(c, y, row.findings);
         if (c == grid_.columns()) break;
-        TileWork& work = row.tiles[static_cast<std::size_t>(c)];
-        work.mask.rows[i] = segment(grid_.x(work.tile), y, grid_.tile_width(work.tile), work.max_index, row, take);
-        quiet = work.mask.rows[i] == 0;
+        const int tile = first + c;
+        const auto at = static_cast<std::size_t>(c);
+        int max_index = row.tiles.empty() ? 0 : row.tiles[at].max_index;
+        const std::uint64_t mask = segment(grid_.x(tile), y, grid_.tile_width(tile), max_index, row, take);
+        quiet = mask == 0;
+        if (quiet) continue;
+        if (row.tiles.empty()) row.tiles = all_tiles(first);
+        row.tiles[at].max_index = max_index;
+        row.tiles[at].mask.rows[i] = mask;
       }
     }
     std::erase_if(row.tiles, [](const TileWork& work) { return !work.mask.any(); });
@@ -76,6 +80,13 @@ class Detector {
   }
 
  private:
+  // Of the row of tiles: only where something changed, as most rows of most frames need none.
+  std::vector<TileWork> all_tiles(int first) const {
+    std::vector<TileWork> tiles(static_cast<std::size_t>(grid_.columns()));
+    for (int c = 0; c < grid_.columns(); ++c) tiles[static_cast<std::size_t>(c)].tile = first + c;
+    return tiles;
+  }
+
   // How many whole tiles from column c on have nothing changed in row y that could be seen at a glance.
   int unchanged(int c, int y, FrameFindings& findings) const noexcept {
     if (remembered_ == nullptr || occlusion_ != nullptr) return 0;

@@ -1,9 +1,8 @@
 #include "importance/segment.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
-
-#include "simd/prefetch.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "importance/segment.cpp"
@@ -154,25 +153,12 @@ HWY_INLINE std::uint64_t DifferingPixels(const Pixel<SampleType::float32>* a, co
   return bits;
 }
 
-// The next segments of a row are read while this one is computed; every other line, since these are long streams, of
-// which processors fetch lines by twos.
-template <typename Value>
-HWY_INLINE void Prefetch(const Value* segment) {
-  prefetch(segment + 4 * kTileWidth, kTileWidth * sizeof *segment, 2 * kCacheLine);
-}
-
 template <SampleType type>
 HWY_INLINE SegmentFindings Compare(const DepthToIndex& to_index, const SegmentPair<type>& pair, std::int16_t* index,
                                    SegmentDifference& difference) {
-  Prefetch(pair.colours);
-  Prefetch(pair.old_colours);
-  Prefetch(pair.depth);
   SegmentFindings findings;
   if (pair.known_depth != nullptr) {
-    Prefetch(pair.known_depth);
     difference.known = Equal(pair.depth, pair.known_depth, pair.n * static_cast<int>(sizeof *pair.depth));
-  } else {
-    Prefetch(pair.old_index);
   }
   if (!difference.known) {
     findings = SignedIndices(to_index, pair.depth, pair.n, index);
@@ -201,10 +187,6 @@ HWY_INLINE int Unchanged(const SegmentPair<type>& first, int count) {
   constexpr int colour_bytes = kTileWidth * sizeof *first.colours, depth_bytes = kTileWidth * sizeof *first.depth;
   for (int s = 0; s < count; ++s) {
     const int at = s * kTileWidth;
-    Prefetch(first.colours + at);
-    Prefetch(first.old_colours + at);
-    Prefetch(first.depth + at);
-    Prefetch(first.known_depth + at);
     const auto difference = hn::Or(Difference<colour_bytes>(first.colours + at, first.old_colours + at),
                                    Difference<depth_bytes>(first.depth + at, first.known_depth + at));
     if (!hn::AllTrue(d, hn::Eq(difference, hn::Zero(d)))) return s;
